@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace skyhalo::app {
+
+// Each adds one subcommand with its options; the work runs from the subcommand's callback.
+void add_demo(CLI::App& program);
+void add_run(CLI::App& program);
+void add_evaluate(CLI::App& program);
+void add_config(CLI::App& program);
+
+}  // namespace skyhalo::app

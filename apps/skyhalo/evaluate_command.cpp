@@ -1,0 +1,202 @@
+#include <chrono>
+#include <memory>
+#include <sstream>
+
+#include "commands.hpp"
+#include "common_options.hpp"
+#include "evaluation_run.hpp"
+#include "skyhalo/base/error.hpp"
+#include "skyhalo/base/version.hpp"
+#include "skyhalo/dataset/drive_bounds.hpp"
+#include "skyhalo/dataset/kitti_labels.hpp"
+#include "skyhalo/evaluation/comparison_picture.hpp"
+#include "skyhalo/evaluation/report.hpp"
+#include "skyhalo/io/map_file.hpp"
+#include "skyhalo/io/output_folder.hpp"
+#include "skyhalo/io/picture.hpp"
+#include "skyhalo/io/text_file.hpp"
+#include "source.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace skyhalo::app {
+namespace {
+
+struct EvaluateOptions {
+  CommonOptions common;
+  SourceOptions source;
+  std::string labels;
+  std::string sequence;
+  std::string bounds;
+  double voxel_m = 0.0;  // 0: as configured
+  std::string frames;
+  std::string out = "out/evaluate";
+};
+
+Eigen::AlignedBox3d parse_bounds(const std::string& text) {
+  const auto bad = [&] {
+    return UsageError("--bounds " + text + ": expected six numbers x0,x1,y0,y1,z0,z1 (m)");
+  };
+  std::vector<double> values;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
+      throw bad();
+    }
+    values.push_back(*value);
+  }
+  if (values.size() != 6) {
+    throw bad();
+  }
+  return {Eigen::Vector3d(values[0], values[2], values[4]),
+          Eigen::Vector3d(values[1], values[3], values[5])};
+}
+
+/// The labels of the drive; without a file, none. A file of another length belongs to another drive.
+TrackLabels read_labels(const EvaluateOptions& options, const Config& config, int frame_count) {
+  if (options.labels.empty()) {
+    return {};
+  }
+  TrackLabels labels(options.labels);
+  const int last = labels.last_frame();
+  const std::string has = "the labels end with frame " + std::to_string(last) +
+                          ", the drive with frame " + std::to_string(frame_count - 1);
+  if (last >= frame_count) {
+    throw input_error(options.labels, labels.last_frame_line(), has);
+  }
+  if (last < frame_count - 1 && !config.evaluation.labels_may_end_early) {
+    throw input_error(options.labels, labels.last_frame_line(),
+                      has + "; if there really is nothing after it, use --set "
+                            "evaluation.labels_may_end_early=true");
+  }
+  return labels;
+}
+
+/// "0003" of label_02_0003.txt or 0003.txt; else the drive's name.
+std::string sequence_name(const EvaluateOptions& options, const FrameSource& source) {
+  if (!options.sequence.empty()) {
+    return options.sequence;
+  }
+  const std::string stem = std::filesystem::path(options.labels).stem().string();
+  const std::string last = stem.substr(stem.find_last_of('_') + 1);
+  const bool four_digits =
+      last.size() == 4 && last.find_first_not_of("0123456789") == std::string::npos;
+  return four_digits ? last : source.name();
+}
+
+std::string png_bytes(const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<ReportPicture> pictures(const Evaluation& evaluation, double occupied_probability) {
+  // About a thousand pixels wide, whatever the map's size.
+  const int cell_px = std::clamp(1000 / evaluation.truth.grid().size.x(), 1, 8);
+  const DenseMap& map = evaluation.detector.map();
+  return {{"Ground truth from above", "Colour: height, dark is low. x (forward) to the right, y up.",
+           png_bytes(truth_picture(evaluation.truth, cell_px))},
+          {"Map from above", "Occupied cells by height; white: seen free; pale blue: never seen.",
+           png_bytes(top_picture(map, occupied_probability, cell_px))},
+          {"Map against ground truth",
+           "Columns with a cell that is found (green), only claimed (orange), only missed (blue).",
+           png_bytes(comparison_picture(map, evaluation.truth, occupied_probability, cell_px))}};
+}
+
+void write_files(const OutputFolder& out, const Evaluation& evaluation, const EvaluationResult& result,
+                 double occupied_probability) {
+  write_bytes(out.file("metrics.csv"), metrics_csv(result));
+  write_bytes(out.file("table.md"), metrics_table(result));
+  write_bytes(out.file("report.html"), metrics_report(result));
+  write_bytes(out.file("summary.json"), metrics_summary(result).dump(2) + "\n");
+  write_ply(out.file("ground_truth.ply"),
+            cell_points(evaluation.truth.grid(), evaluation.truth.occupied_offsets()));
+  write_ply(out.file("map.ply"), occupied_points(evaluation.detector.map(), occupied_probability));
+}
+
+void note_skipped(const CommonOptions& common, const std::vector<int>& frames) {
+  if (frames.empty()) {
+    return;
+  }
+  std::string list;
+  for (const int frame : frames) {
+    list += (list.empty() ? "" : ", ") + std::to_string(frame);
+  }
+  print_note(common, "laser scans missing and skipped: frame " + list);
+}
+
+void evaluate(const EvaluateOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  Config config = load_config(options.common);
+  config.detector.map.voxel_m = options.voxel_m > 0.0 ? options.voxel_m : config.detector.map.voxel_m;
+  const ThreadLimit limit(options.common.threads);
+  const auto drive = open_source(options.source, config.dataset);
+  const TrackLabels labels = read_labels(options, config, drive->frame_count());
+  const FrameRange range = parse_frames(options.frames, drive->frame_count());
+  const Eigen::AlignedBox3d bounds = options.bounds.empty() ? drive_bounds(*drive, config.bounds)
+                                                            : parse_bounds(options.bounds);
+  const VoxelGrid grid = make_voxel_grid(bounds, config.detector.map.voxel_m);
+  OutputFolder out(options.out);
+
+  Evaluation evaluation{GroundTruth(grid), ObstacleDetector(drive->rig(), config.detector, grid)};
+  build_truth(*drive, labels, config.evaluation, {range, options.common.quiet}, evaluation);
+  map_and_score(*drive, config.evaluation, {range, options.common.quiet}, evaluation);
+
+  EvaluationResult result{
+      .version = kVersion,
+      .sequence = sequence_name(options, *drive),
+      .source = drive->name(),
+      .grid = grid,
+      .max_range_m = config.evaluation.max_range_m,
+      .occupied_cells = static_cast<std::int64_t>(evaluation.truth.occupied_offsets().size()),
+      .skipped_scans = evaluation.skipped_scans,
+      .rows = evaluation.rows,
+      .stages = evaluation.clock.times(),
+      .pictures = pictures(evaluation, config.evaluation.occupied_probability),
+      .seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      .config_yaml = to_yaml(config)};
+  write_files(out, evaluation, result, config.evaluation.occupied_probability);
+  out.commit();
+  note_skipped(options.common, evaluation.skipped_scans);
+  print_result(options.common,
+               metrics_table(result) + "\nWritten to " + options.out +
+                   ": metrics.csv, table.md, report.html, ground_truth.ply, map.ply, summary.json\n",
+               metrics_summary(result));
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program) {
+  auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* command = program.add_subcommand(
+      "evaluate",
+      "score the map of a recording against ground truth from its laser scanner, frame by frame\n"
+      "writes metrics.csv, table.md, report.html, ground_truth.ply, map.ply and summary.json");
+  add_source_options(*command, options->source);
+  command
+      ->add_option("--labels", options->labels,
+                   "KITTI tracking labels; laser points in their boxes are no ground truth")
+      ->type_name("FILE");
+  command
+      ->add_option("--sequence", options->sequence,
+                   "name of the sequence in tables (default: from the label file)")
+      ->type_name("NNNN");
+  command
+      ->add_option("--bounds", options->bounds,
+                   "of the map, in the frame of the first pose (default: follows the drive)")
+      ->type_name("x0,x1,y0,y1,z0,z1");
+  command->add_option("--voxel", options->voxel_m, "edge of a map cell in metres (default: map.voxel_m)")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--frames", options->frames, "use only these frames, both included")
+      ->type_name("FIRST:LAST");
+  command->add_option("--out", options->out, "folder for the results")
+      ->type_name("DIR")
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options] { evaluate(*options); });
+}
+
+}  // namespace skyhalo::app

@@ -1,0 +1,68 @@
+#include "evaluation_run.hpp"
+
+#include <optional>
+
+#include "for_each_frame.hpp"
+
+namespace skyhalo::app {
+namespace {
+
+int frame_count(const FrameRange& range) { return range.last - range.first + 1; }
+
+/// The cells that one frame's scan marks; none without a scan.
+std::optional<std::vector<std::int64_t>> truth_cells(const KittiRawDrive& drive,
+                                                     const TrackLabels& labels,
+                                                     double max_range_m,
+                                                     const VoxelGrid& grid,
+                                                     int frame) {
+  const std::optional<LaserScan> scan = drive.read_scan(frame);
+  if (!scan) {
+    return std::nullopt;
+  }
+  std::vector<OrientedBox> boxes;
+  for (const TrackedObject& object : labels.objects(frame)) {
+    boxes.push_back(object.box);
+  }
+  const TruthView view{drive.truth_camera(), drive.T_annotation_laser(),
+                       drive.T_map_body(frame) * drive.T_body_laser(), max_range_m};
+  return occupied_cells(*scan, view, boxes, grid);
+}
+
+}  // namespace
+
+void build_truth(const KittiRawDrive& drive,
+                 const TrackLabels& labels,
+                 const EvaluationConfig& config,
+                 const FrameLoop& loop,
+                 Evaluation& evaluation) {
+  ProgressBar bar("ground truth", frame_count(loop.range), loop.quiet);
+  for_each_frame(
+      loop.range, bar,
+      [&](int frame) {
+        return truth_cells(drive, labels, config.max_range_m, evaluation.truth.grid(), frame);
+      },
+      [&](int frame, const std::optional<std::vector<std::int64_t>>& cells) {
+        if (cells) {
+          evaluation.truth.mark(*cells);
+        } else {
+          evaluation.skipped_scans.push_back(frame);
+        }
+      });
+}
+
+void map_and_score(const KittiRawDrive& drive,
+                   const EvaluationConfig& config,
+                   const FrameLoop& loop,
+                   Evaluation& evaluation) {
+  ProgressBar bar("mapping", frame_count(loop.range), loop.quiet);
+  for_each_frame(
+      loop.range, bar, [&](int frame) { return drive.read(frame); },
+      [&](int frame, const FrameSet& frames) {
+        evaluation.detector.process(frames, drive.T_map_body(frame), &evaluation.clock);
+        evaluation.rows.push_back(
+            {frame, score(evaluation.detector.map().cells(), evaluation.truth.occupied(),
+                          config.occupied_probability)});
+      });
+}
+
+}  // namespace skyhalo::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace skyhalo {
+
+/// Writes a whole file. Throws `Error` (failure) naming the file when it cannot be written.
+void write_bytes(const std::filesystem::path& file, std::string_view bytes);
+
+/// A folder of results that appear all at once: files are written to a hidden folder inside, and `commit`
+/// moves them to their names. Without a commit nothing of them stays, and earlier results in the folder
+/// are untouched.
+class OutputFolder {
+ public:
+  /// Creates the folder and its parents. Throws `Error` (failure) at once when it cannot be written to.
+  explicit OutputFolder(std::filesystem::path folder);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  OutputFolder(OutputFolder&&) = delete;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+
+  /// Removes what was not committed, and the folder too if this object created it.
+  ~OutputFolder();
+
+  /// Where to write the file called `name` until `commit`.
+  [[nodiscard]] std::filesystem::path file(std::string_view name) const { return staging_ / name; }
+
+  /// The folder that the results appear in.
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+
+  /// Moves all files to their names, replacing earlier ones. Throws `Error` (failure).
+  void commit();
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path staging_;
+  std::filesystem::path created_;  // the topmost folder that did not exist before; empty for none
+  bool committed_ = false;
+};
+
+}  // namespace skyhalo

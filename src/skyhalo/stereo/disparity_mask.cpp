@@ -1,0 +1,35 @@
+#include "skyhalo/stereo/disparity_mask.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace skyhalo {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+int floor_div(int a, int b) noexcept { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+int ceil_div(int a, int b) noexcept { return -floor_div(-a, b); }
+
+}  // namespace
+
+void discard_right_columns(cv::Mat1f& disparity, int rcrop_px) noexcept {
+  const int first = std::clamp(disparity.cols - rcrop_px, 0, disparity.cols);
+  for (int v = 0; v < disparity.rows; ++v) {
+    float* row = disparity[v];
+    std::fill(row + first, row + disparity.cols, kNone);
+  }
+}
+
+void discard_rectangles(cv::Mat1f& disparity, std::span<const cv::Rect> masks_px, int downscale) {
+  const cv::Rect image(0, 0, disparity.cols, disparity.rows);
+  for (const cv::Rect& mask : masks_px) {
+    const cv::Point from(floor_div(mask.x, downscale), floor_div(mask.y, downscale));
+    const cv::Point to(ceil_div(mask.x + mask.width, downscale),
+                       ceil_div(mask.y + mask.height, downscale));
+    disparity(cv::Rect(from, to) & image).setTo(kNone);
+  }
+}
+
+}  // namespace skyhalo
