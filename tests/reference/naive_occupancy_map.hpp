@@ -96,11 +96,20 @@ inline std::optional<NaiveChord> naive_chord(const NaiveVoxelGrid& grid,
   return std::nullopt;
 }
 
+/// Share of a voxel that a chord crosses: its length in voxel edges, at most 1.
+inline double naive_crossed_share(const NaiveChord& chord, double voxel_m) {
+  return std::min(1.0, (chord.leave_m - chord.enter_m) / voxel_m);
+}
+
 /// Log odds log(p / (1 - p)) in integer units of 0.001, p first clamped to
-/// [1e-6, 1 - 1e-6] (the increment of thesis eq. 6.2 with p0 = 0.5).
-inline int naive_log_odds_units(double probability) {
+/// [1e-6, 1 - 1e-6] (the increment of thesis eq. 6.2 with p0 = 0.5). Evidence for free space counts
+/// only with the share of the voxel that was crossed: a ray that merely clips a corner says little
+/// about the voxel being free, while an end point inside it says that it is occupied.
+inline int naive_log_odds_units(double probability, double crossed_share = 1.0) {
   const double p = std::clamp(probability, kProbabilityMargin, 1.0 - kProbabilityMargin);
-  return static_cast<int>(std::lround(kUnitsPerLogOdds * std::log(p / (1.0 - p))));
+  const double log_odds = std::log(p / (1.0 - p));
+  const double weight = log_odds < 0.0 ? crossed_share : 1.0;
+  return static_cast<int>(std::lround(kUnitsPerLogOdds * weight * log_odds));
 }
 
 /// True if origin, direction, range and uncertainty are finite, the range (metres) is > 0 and the
@@ -116,10 +125,11 @@ inline bool naive_is_usable(const NaiveRay& ray) {
 }
 
 /// Applies one measurement to every voxel that its half-line crosses (thesis eq. 6.2, 6.4). A
-/// voxel's distance is the point of its chord nearest to the measurement. Up to the measurement
-/// every voxel changes and becomes observed; beyond it only where the increment is not 0. Log odds
-/// are held within +-clamp_log_odds (natural log odds, no unit). A ray that is not usable changes
-/// nothing.
+/// voxel's distance is the point of its chord nearest to the measurement; free space is weighted
+/// with the share of the voxel that was crossed. Up to the measurement every voxel is updated and
+/// becomes observed, even if its increment is 0; beyond it only where the increment is not 0. Log
+/// odds are held within +-clamp_log_odds (natural log odds, no unit). A ray that is not usable
+/// changes nothing.
 inline void naive_integrate(NaiveMap& map,
                             const NaiveRay& ray,
                             const NaiveSensorModel& model,
@@ -139,7 +149,8 @@ inline void naive_integrate(NaiveMap& map,
     }
     const double m_m = std::clamp(ray.z_m, chord->enter_m, chord->leave_m);
     const double probability = naive_probability(model, m_m, ray.z_m, ray.delta_z_m);
-    const int increment_units = naive_log_odds_units(probability);
+    const double crossed_share = naive_crossed_share(*chord, map.grid.voxel_m);
+    const int increment_units = naive_log_odds_units(probability, crossed_share);
     if (chord->enter_m > ray.z_m && increment_units == 0) {
       continue;
     }

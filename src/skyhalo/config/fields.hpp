@@ -55,7 +55,7 @@ void visit_fields(ConfigType& config, Visitor& visitor) {
   visitor.field("uniqueness_percent", matching.matcher.uniqueness_percent,
                 "by how much the best cost must beat the others, 0...100");
   visitor.field("left_right_px", matching.matcher.left_right_px,
-                "largest difference in the left-right check; negative for none");
+                "largest difference in the left-right check, at least 1");
   visitor.field("speckle_size_px", matching.matcher.speckle_size_px,
                 "smaller islands of disparity are discarded; 0 for none");
   visitor.field("speckle_range_px", matching.matcher.speckle_range_px,

@@ -10,17 +10,18 @@ void integrate(const Ray& ray,
                DenseMap& map) noexcept {
   const double z_m = model.z_m();
   const double free_until_m = model.free_until_m();
-  const int crossed_units = log_odds_units(model.probability(0.0 < free_until_m ? 0.0 : z_m));
+  const double cells_per_m = 1.0 / map.grid().voxel_m;
+  const double crossed = log_odds(model.probability(0.0));
   walk_ray(map.grid(), ray, [&](std::int64_t offset, double enter_m, double leave_m) {
-    LogOdds& cell = map.at(offset);
-    if (leave_m < free_until_m) {
-      cell = updated(cell, crossed_units, limit_units);
-      return true;
-    }
-    const int units = log_odds_units(model.probability(std::clamp(z_m, enter_m, leave_m)));
+    const double said = leave_m < free_until_m
+                            ? crossed
+                            : log_odds(model.probability(std::clamp(z_m, enter_m, leave_m)));
+    const double share = said < 0.0 ? std::min(1.0, (leave_m - enter_m) * cells_per_m) : 1.0;
+    const int units = log_odds_units(said * share);
     if (enter_m > z_m && units == 0) {
       return false;
     }
+    LogOdds& cell = map.at(offset);
     cell = updated(cell, units, limit_units);
     return true;
   });

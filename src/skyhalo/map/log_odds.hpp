@@ -16,10 +16,15 @@ inline constexpr LogOdds kUnknown = std::numeric_limits<LogOdds>::min();
 
 inline constexpr double kLogOddsPerUnit = 0.001;
 
-/// `log(p / (1 - p))` in units of 0.001, rounded; p is kept within [1e-6, 1 - 1e-6].
-[[nodiscard]] inline int log_odds_units(double probability) noexcept {
+/// `log(p / (1 - p))`; p is kept within [1e-6, 1 - 1e-6].
+[[nodiscard]] inline double log_odds(double probability) noexcept {
   const double p = std::clamp(probability, 1e-6, 1.0 - 1e-6);
-  return static_cast<int>(std::lround(std::log(p / (1.0 - p)) / kLogOddsPerUnit));
+  return std::log(p / (1.0 - p));
+}
+
+/// Log odds in units of 0.001, rounded to the nearest.
+[[nodiscard]] inline int log_odds_units(double log_odds_value) noexcept {
+  return static_cast<int>(std::lround(log_odds_value / kLogOddsPerUnit));
 }
 
 /// Probability of a cell (thesis eq. 6.3); 0.5 for an unknown one.

@@ -21,6 +21,7 @@ const MatcherConfig& checked(const MatcherConfig& config) {
   require(config.paths == 3 || config.paths == 5 || config.paths == 8, "paths", "3, 5 or 8");
   require(config.uniqueness_percent >= 0 && config.uniqueness_percent <= 100, "uniqueness_percent",
           "a number in 0...100");
+  require(config.left_right_px >= 1, "left_right_px", "a number of pixels >= 1");
   require(config.speckle_size_px >= 0, "speckle_size_px", "a number >= 0");
   require(config.speckle_range_px >= 0, "speckle_range_px", "a number >= 0");
   return config;
