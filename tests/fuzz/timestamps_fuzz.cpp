@@ -1,0 +1,8 @@
+#include "fuzz_file.hpp"
+#include "skyhalo/dataset/kitti_raw.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  return skyhalo::fuzz::as_file(bytes, size, [](const std::filesystem::path& file) {
+    (void)skyhalo::read_kitti_timestamps(file);
+  });
+}

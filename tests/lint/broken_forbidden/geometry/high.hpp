@@ -1,0 +1,3 @@
+#pragma once
+
+#include "skyhalo/base/low.hpp"

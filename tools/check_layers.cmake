@@ -1,0 +1,52 @@
+cmake_minimum_required(VERSION 3.25)
+
+# Fails on an include that points upwards. Usage: cmake -D SOURCE_DIR=<src/skyhalo> -P check_layers.cmake
+# Reads SKYHALO_LAYERS, and SKYHALO_FORBIDDEN_<layer>, from SOURCE_DIR/CMakeLists.txt: the same list that
+# the build follows.
+file(READ "${SOURCE_DIR}/CMakeLists.txt" build_file)
+string(REGEX REPLACE "#[^\n]*" "" build_file "${build_file}")
+if(NOT build_file MATCHES "set\\(SKYHALO_LAYERS([^)]*)\\)")
+  message(FATAL_ERROR "${SOURCE_DIR}/CMakeLists.txt: no list SKYHALO_LAYERS")
+endif()
+string(REGEX MATCHALL "[a-z_]+" layers "${CMAKE_MATCH_1}")
+
+get_filename_component(SOURCE_DIR "${SOURCE_DIR}" ABSOLUTE)
+
+# Every folder is a layer, and every layer a folder.
+file(GLOB entries RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/*")
+foreach(entry IN LISTS entries)
+  if(IS_DIRECTORY "${SOURCE_DIR}/${entry}" AND NOT entry IN_LIST layers)
+    list(APPEND faults "${entry}/ is not in the list of layers")
+  endif()
+endforeach()
+
+set(allowed "")
+foreach(layer IN LISTS layers)
+  list(APPEND allowed ${layer})
+  set(visible ${allowed})
+  if(build_file MATCHES "set\\(SKYHALO_FORBIDDEN_${layer} ([^)]*)\\)")
+    string(REGEX MATCHALL "[a-z_]+" forbidden "${CMAKE_MATCH_1}")
+    list(REMOVE_ITEM visible ${forbidden})
+  endif()
+  file(GLOB sources "${SOURCE_DIR}/${layer}/*.hpp" "${SOURCE_DIR}/${layer}/*.cpp")
+  if(NOT sources)
+    list(APPEND faults "${layer}/ holds no source")
+  endif()
+  foreach(source IN LISTS sources)
+    file(STRINGS "${source}" includes REGEX "^ *# *include +\"")
+    foreach(line IN LISTS includes)
+      if(NOT line MATCHES "\"skyhalo/([a-z_]+)/[a-z0-9_]+\\.hpp\"")
+        list(APPEND faults "${source}: ${line}: expected \"skyhalo/LAYER/FILE.hpp\"")
+      elseif(NOT CMAKE_MATCH_1 IN_LIST visible)
+        list(APPEND faults "${source}: ${layer} must not include ${CMAKE_MATCH_1}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+if(faults)
+  list(JOIN faults "\n  " text)
+  message(FATAL_ERROR "The order of the layers is broken:\n  ${text}")
+endif()
+list(LENGTH layers count)
+message(STATUS "${count} layers, every include points to an allowed one")
