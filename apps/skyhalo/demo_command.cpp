@@ -80,7 +80,7 @@ void demo(const DemoOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ImagePairSource source(options.left, options.right, aloe_pair());
   OutputFolder out(options.out);
-  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.0, -0.5, -0.4), Eigen::Vector3d(2.6, 0.5, 0.4));
+  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.0, -0.6, -0.4), Eigen::Vector3d(2.4, 0.6, 0.4));
   ObstacleDetector detector(source.rig(), config.detector,
                             make_voxel_grid(bounds, config.detector.map.voxel_m));
   const FrameSet frames = source.read(0);
@@ -98,7 +98,7 @@ void demo(const DemoOptions& options) {
       {"spherical grid, unrolled (bright is near)", grid_picture(seen.grid, seen.depth, 8)},
       {"map slice at eye height, camera left, black is occupied",
        slice_picture(detector.map(), 0.0, 4)}};
-  write_png(out.file("overview.png"), contact_sheet(pictures, 2, 640));
+  write_png(out.file("overview.png"), contact_sheet(pictures, 2, 480));
   write_ply(out.file("map.ply"), occupied_points(detector.map(), p_occupied));
   write_bytes(out.file("summary.json"), summary.dump(2) + "\n");
   out.commit();
