@@ -7,12 +7,13 @@ list(APPEND pages "${ROOT}/README.md" "${ROOT}/CONTRIBUTING.md" "${ROOT}/CHANGEL
 set(links 0)
 foreach(page IN LISTS pages)
   file(READ "${page}" text)
-  # Lists must not be split at what the text brings along.
-  string(REGEX REPLACE "[;[]" " " text "${text}")
-  string(REGEX MATCHALL "\\]\\([^)#: ]+[)#]" targets "${text}")
+  # Brackets and semicolons mean something in CMake's lists; only the links are looked at.
+  string(REPLACE "](" "@link@" text "${text}")
+  string(REGEX REPLACE "[][;]" " " text "${text}")
+  string(REGEX MATCHALL "@link@[^)#: \n]+[)#]" targets "${text}")
   get_filename_component(folder "${page}" DIRECTORY)
   foreach(target IN LISTS targets)
-    string(REGEX REPLACE "^\\]\\(|[)#]$" "" target "${target}")
+    string(REGEX REPLACE "@link@|[)#]$" "" target "${target}")
     math(EXPR links "${links} + 1")
     if(NOT EXISTS "${folder}/${target}")
       list(APPEND faults "${page}: link to ${target}, which is not there")
