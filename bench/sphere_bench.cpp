@@ -22,7 +22,7 @@ void accumulate_image(benchmark::State& state) {
                                          .step_rad = rad_from_deg(1.0)}));
   cv::Mat1f disparity(360, 640);
   cv::RNG(1).fill(disparity, cv::RNG::UNIFORM, 4.0, 60.0);
-  for (auto step : state) {
+  while (state.KeepRunning()) {
     grid.clear();
     benchmark::DoNotOptimize(accumulate(disparity, pair, grid));
   }

@@ -16,13 +16,13 @@ void match(benchmark::State& state) {
   Matcher matcher({.max_disparity_px = static_cast<int>(state.range(2)),
                    .paths = static_cast<int>(state.range(3))});
   cv::Mat1f disparity;
-  for (auto step : state) {
+  while (state.KeepRunning()) {
     matcher.match(pair.left, pair.right, disparity);
     benchmark::DoNotOptimize(disparity.data);
   }
   const double evaluations = static_cast<double>(size.area()) * static_cast<double>(state.range(2));
-  state.counters["MDE/s"] = benchmark::Counter(
-      evaluations * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["MDE/s"] =
+      benchmark::Counter(evaluations * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 BENCHMARK(match)

@@ -1,6 +1,7 @@
 // Dense disparities of one rectified pair, aligned with the right image.
 //
-// Two pictures of a random texture, 12 pixels apart, stand in for a pair of cameras in front of a wall.
+// Two pictures of a random texture, 12 pixels apart, stand in for a pair of cameras in front of a
+// wall.
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +23,9 @@ int main() {
   matcher.match(left, right, disparity);
 
   std::vector<float> found;  // NaN marks pixels without a match
-  std::copy_if(disparity.begin(), disparity.end(), std::back_inserter(found),
-               [](float d) { return !std::isnan(d); });
+  std::copy_if(disparity.begin(), disparity.end(), std::back_inserter(found), [](float d) {
+    return !std::isnan(d);
+  });
   if (found.empty()) {
     return 1;
   }

@@ -1,5 +1,5 @@
-// How far is the nearest thing in each direction? A disparity image becomes a spherical grid round the
-// body.
+// How far is the nearest thing in each direction? A disparity image becomes a spherical grid round
+// the body.
 
 #include <cstdio>
 
@@ -9,7 +9,8 @@
 int main() {
   using skyhalo::rad_from_deg;
 
-  // A pair that looks forward: cam x right is body -y, cam y down is body -z, cam z forward is body x.
+  // A pair that looks forward: cam x right is body -y, cam y down is body -z, cam z forward is body
+  // x.
   Eigen::Matrix3d R_body_camera;
   R_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const skyhalo::PairGeometry pair{
@@ -32,7 +33,9 @@ int main() {
   if (!depth_m) {
     return 1;
   }
-  std::printf("straight ahead: %.2f m; %d of %d cells see something\n", *depth_m,
-              grid.occupied_cell_count(), grid.geometry().cell_count());
+  std::printf("straight ahead: %.2f m; %d of %d cells see something\n",
+              *depth_m,
+              grid.occupied_cell_count(),
+              grid.geometry().cell_count());
   return 0;
 }

@@ -28,8 +28,7 @@ int main() {
   for (int i = -40; i <= 40; ++i) {
     const Eigen::Vector3d target_m(5.1, 0.05 * i, 0.05);
     const double z_m = target_m.norm();
-    const skyhalo::InverseSensorModel model(sensor, z_m,
-                                            delta_z_m(pair, z_m, sensor.delta_d_px));
+    const skyhalo::InverseSensorModel model(sensor, z_m, delta_z_m(pair, z_m, sensor.delta_d_px));
     integrate({Eigen::Vector3d::Zero(), target_m / z_m}, model, kLimitUnits, map);
   }
 

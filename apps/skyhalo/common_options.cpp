@@ -11,7 +11,8 @@
 namespace skyhalo::app {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--config", options.config_file, "YAML file with settings (see: skyhalo config)")
+  command
+      .add_option("--config", options.config_file, "YAML file with settings (see: skyhalo config)")
       ->type_name("FILE");
   command
       .add_option("--set", options.assignments, "one setting, section.key=value; may be repeated")
@@ -21,12 +22,13 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--threads", options.threads, "threads to use (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command.add_flag("--json", options.json, "print the summary as one JSON line at the end of stdout");
+  command.add_flag(
+      "--json", options.json, "print the summary as one JSON line at the end of stdout");
   command.add_flag("--quiet", options.quiet, "print nothing but errors (and --json)");
 }
 
-Config load_config(const CommonOptions& options, Config defaults) {
-  Config config = std::move(defaults);
+Config load_config(const CommonOptions& options, const Config& defaults) {
+  Config config = defaults;
   if (!options.config_file.empty()) {
     skyhalo::load_config(options.config_file, config);
   }
@@ -40,6 +42,7 @@ Config load_config(const CommonOptions& options, Config defaults) {
 struct ThreadLimit::Control {
   explicit Control(std::size_t threads)
       : tbb(tbb::global_control::max_allowed_parallelism, threads) {}
+
   tbb::global_control tbb;
 };
 

@@ -29,7 +29,7 @@ struct CommonOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// The defaults, changed by `--config` and then by each `--set`.
-Config load_config(const CommonOptions& options, Config defaults = {});
+Config load_config(const CommonOptions& options, const Config& defaults = {});
 
 /// Limits the program to `--threads` threads for as long as the object lives.
 class ThreadLimit {
@@ -47,7 +47,9 @@ class ThreadLimit {
 };
 
 /// Prints results to stdout and notes to stderr as `--json` and `--quiet` ask for.
-void print_result(const CommonOptions& options, const std::string& text, const nlohmann::json& summary);
+void print_result(const CommonOptions& options,
+                  const std::string& text,
+                  const nlohmann::json& summary);
 void print_note(const CommonOptions& options, const std::string& text);
 
 /// Frames FIRST to LAST, both included.
@@ -56,8 +58,8 @@ struct FrameRange {
   int last = 0;
 };
 
-/// Reads `FIRST:LAST` (either may be missing) for a recording of `count` frames. Throws `UsageError` when it
-/// is malformed or leaves the recording.
+/// Reads `FIRST:LAST` (either may be missing) for a recording of `count` frames. Throws
+/// `UsageError` when it is malformed or leaves the recording.
 FrameRange parse_frames(const std::string& text, int count);
 
 }  // namespace skyhalo::app

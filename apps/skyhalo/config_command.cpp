@@ -17,7 +17,8 @@ struct ConfigOptions {
 void add_config(CLI::App& program) {
   auto options = std::make_shared<ConfigOptions>();
   CLI::App* command = program.add_subcommand(
-      "config", "print all settings as YAML, after --config and --set; redirect it to start a file");
+      "config",
+      "print all settings as YAML, after --config and --set; redirect it to start a file");
   command->add_flag("--markdown", options->markdown, "print the documentation page instead");
   add_common_options(*command, options->common);
   command->callback([options] {

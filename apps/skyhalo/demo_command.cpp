@@ -23,8 +23,9 @@ struct DemoOptions {
   std::string out = "out/demo";
 };
 
-/// The "Aloe" pair of the Middlebury 2006 data sets, with the numbers published with them: f 3740 px, views
-/// 160 mm apart, disparities counted from 270 px. The camera looks forward from the body origin.
+/// The "Aloe" pair of the Middlebury 2006 data sets, with the numbers published with them: f 3740
+/// px, views 160 mm apart, disparities counted from 270 px. The camera looks forward from the body
+/// origin.
 StereoPair aloe_pair() {
   Eigen::Matrix3d R_body_camera;
   R_body_camera << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
@@ -64,10 +65,12 @@ cv::Mat3b colour(const cv::Mat& image) {
   return picture;
 }
 
-nlohmann::json summarise(const PairPerception& seen, const DenseMap& map, double occupied_probability) {
+nlohmann::json summarise(const PairPerception& seen,
+                         const DenseMap& map,
+                         double occupied_probability) {
   return {{"frames", 1},
-          {"density", static_cast<double>(seen.pixels.measured) /
-                          static_cast<double>(seen.disparity.total())},
+          {"density",
+           static_cast<double>(seen.pixels.measured) / static_cast<double>(seen.disparity.total())},
           {"grid_cells", seen.grid.geometry().cell_count()},
           {"grid_cells_with_depth", seen.grid.occupied_cell_count()},
           {"rays", seen.rays},
@@ -80,9 +83,10 @@ void demo(const DemoOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ImagePairSource source(options.left, options.right, aloe_pair());
   OutputFolder out(options.out);
-  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.0, -0.6, -0.4), Eigen::Vector3d(2.4, 0.6, 0.4));
-  ObstacleDetector detector(source.rig(), config.detector,
-                            make_voxel_grid(bounds, config.detector.map.voxel_m));
+  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.0, -0.6, -0.4),
+                                   Eigen::Vector3d(2.4, 0.6, 0.4));
+  ObstacleDetector detector(
+      source.rig(), config.detector, make_voxel_grid(bounds, config.detector.map.voxel_m));
   const FrameSet frames = source.read(0);
   StageClock clock;
   detector.process(frames, source.T_map_body(0), &clock);

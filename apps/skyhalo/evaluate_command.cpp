@@ -1,5 +1,6 @@
 #include <chrono>
 #include <memory>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "commands.hpp"
@@ -16,8 +17,6 @@
 #include "skyhalo/io/picture.hpp"
 #include "skyhalo/io/text_file.hpp"
 #include "source.hpp"
-
-#include <opencv2/imgcodecs.hpp>
 
 namespace skyhalo::app {
 namespace {
@@ -53,7 +52,8 @@ Eigen::AlignedBox3d parse_bounds(const std::string& text) {
           Eigen::Vector3d(values[1], values[3], values[5])};
 }
 
-/// The labels of the drive; without a file, none. A file of another length belongs to another drive.
+/// The labels of the drive; without a file, none. A file of another length belongs to another
+/// drive.
 TrackLabels read_labels(const EvaluateOptions& options, const Config& config, int frame_count) {
   if (options.labels.empty()) {
     return {};
@@ -66,9 +66,11 @@ TrackLabels read_labels(const EvaluateOptions& options, const Config& config, in
     throw input_error(options.labels, labels.last_frame_line(), has);
   }
   if (last < frame_count - 1 && !config.evaluation.labels_may_end_early) {
-    throw input_error(options.labels, labels.last_frame_line(),
-                      has + "; if there really is nothing after it, use --set "
-                            "evaluation.labels_may_end_early=true");
+    throw input_error(options.labels,
+                      labels.last_frame_line(),
+                      has +
+                          "; if there really is nothing after it, use --set "
+                          "evaluation.labels_may_end_early=true");
   }
   return labels;
 }
@@ -95,16 +97,20 @@ std::vector<ReportPicture> pictures(const Evaluation& evaluation, double occupie
   // About a thousand pixels wide, whatever the map's size.
   const int cell_px = std::clamp(1000 / evaluation.truth.grid().size.x(), 1, 8);
   const DenseMap& map = evaluation.detector.map();
-  return {{"Ground truth from above", "Colour: height, dark is low. x (forward) to the right, y up.",
+  return {{"Ground truth from above",
+           "Colour: height, dark is low. x (forward) to the right, y up.",
            png_bytes(truth_picture(evaluation.truth, cell_px))},
-          {"Map from above", "Occupied cells by height; white: seen free; pale blue: never seen.",
+          {"Map from above",
+           "Occupied cells by height; white: seen free; pale blue: never seen.",
            png_bytes(top_picture(map, occupied_probability, cell_px))},
           {"Map against ground truth",
            "Columns with a cell that is found (green), only claimed (orange), only missed (blue).",
            png_bytes(comparison_picture(map, evaluation.truth, occupied_probability, cell_px))}};
 }
 
-void write_files(const OutputFolder& out, const Evaluation& evaluation, const EvaluationResult& result,
+void write_files(const OutputFolder& out,
+                 const Evaluation& evaluation,
+                 const EvaluationResult& result,
                  double occupied_probability) {
   write_bytes(out.file("metrics.csv"), metrics_csv(result));
   write_bytes(out.file("table.md"), metrics_table(result));
@@ -129,13 +135,14 @@ void note_skipped(const CommonOptions& common, const std::vector<int>& frames) {
 void evaluate(const EvaluateOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Config config = load_config(options.common);
-  config.detector.map.voxel_m = options.voxel_m > 0.0 ? options.voxel_m : config.detector.map.voxel_m;
+  config.detector.map.voxel_m =
+      options.voxel_m > 0.0 ? options.voxel_m : config.detector.map.voxel_m;
   const ThreadLimit limit(options.common.threads);
   const auto drive = open_source(options.source, config.dataset);
   const TrackLabels labels = read_labels(options, config, drive->frame_count());
   const FrameRange range = parse_frames(options.frames, drive->frame_count());
-  const Eigen::AlignedBox3d bounds = options.bounds.empty() ? drive_bounds(*drive, config.bounds)
-                                                            : parse_bounds(options.bounds);
+  const Eigen::AlignedBox3d bounds =
+      options.bounds.empty() ? drive_bounds(*drive, config.bounds) : parse_bounds(options.bounds);
   const VoxelGrid grid = make_voxel_grid(bounds, config.detector.map.voxel_m);
   OutputFolder out(options.out);
 
@@ -154,16 +161,16 @@ void evaluate(const EvaluateOptions& options) {
       .rows = evaluation.rows,
       .stages = evaluation.clock.times(),
       .pictures = pictures(evaluation, config.evaluation.occupied_probability),
-      .seconds =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       .config_yaml = to_yaml(config)};
   write_files(out, evaluation, result, config.evaluation.occupied_probability);
   out.commit();
   note_skipped(options.common, evaluation.skipped_scans);
-  print_result(options.common,
-               metrics_table(result) + "\nWritten to " + options.out +
-                   ": metrics.csv, table.md, report.html, ground_truth.ply, map.ply, summary.json\n",
-               metrics_summary(result));
+  print_result(
+      options.common,
+      metrics_table(result) + "\nWritten to " + options.out +
+          ": metrics.csv, table.md, report.html, ground_truth.ply, map.ply, summary.json\n",
+      metrics_summary(result));
 }
 
 }  // namespace
@@ -176,18 +183,23 @@ void add_evaluate(CLI::App& program) {
       "writes metrics.csv, table.md, report.html, ground_truth.ply, map.ply and summary.json");
   add_source_options(*command, options->source);
   command
-      ->add_option("--labels", options->labels,
+      ->add_option("--labels",
+                   options->labels,
                    "KITTI tracking labels; laser points in their boxes are no ground truth")
       ->type_name("FILE");
   command
-      ->add_option("--sequence", options->sequence,
+      ->add_option("--sequence",
+                   options->sequence,
                    "name of the sequence in tables (default: from the label file)")
       ->type_name("NNNN");
   command
-      ->add_option("--bounds", options->bounds,
+      ->add_option("--bounds",
+                   options->bounds,
                    "of the map, in the frame of the first pose (default: follows the drive)")
       ->type_name("x0,x1,y0,y1,z0,z1");
-  command->add_option("--voxel", options->voxel_m, "edge of a map cell in metres (default: map.voxel_m)")
+  command
+      ->add_option(
+          "--voxel", options->voxel_m, "edge of a map cell in metres (default: map.voxel_m)")
       ->type_name("M")
       ->check(CLI::PositiveNumber);
   command->add_option("--frames", options->frames, "use only these frames, both included")

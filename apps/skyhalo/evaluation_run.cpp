@@ -7,7 +7,9 @@
 namespace skyhalo::app {
 namespace {
 
-int frame_count(const FrameRange& range) { return range.last - range.first + 1; }
+int frame_count(const FrameRange& range) {
+  return range.last - range.first + 1;
+}
 
 /// The cells that one frame's scan marks; none without a scan.
 std::optional<std::vector<std::int64_t>> truth_cells(const KittiRawDrive& drive,
@@ -23,8 +25,10 @@ std::optional<std::vector<std::int64_t>> truth_cells(const KittiRawDrive& drive,
   for (const TrackedObject& object : labels.objects(frame)) {
     boxes.push_back(object.box);
   }
-  const TruthView view{drive.truth_camera(), drive.T_annotation_laser(),
-                       drive.T_map_body(frame) * drive.T_body_laser(), max_range_m};
+  const TruthView view{drive.truth_camera(),
+                       drive.T_annotation_laser(),
+                       drive.T_map_body(frame) * drive.T_body_laser(),
+                       max_range_m};
   return occupied_cells(*scan, view, boxes, grid);
 }
 
@@ -37,7 +41,8 @@ void build_truth(const KittiRawDrive& drive,
                  Evaluation& evaluation) {
   ProgressBar bar("ground truth", frame_count(loop.range), loop.quiet);
   for_each_frame(
-      loop.range, bar,
+      loop.range,
+      bar,
       [&](int frame) {
         return truth_cells(drive, labels, config.max_range_m, evaluation.truth.grid(), frame);
       },
@@ -56,12 +61,15 @@ void map_and_score(const KittiRawDrive& drive,
                    Evaluation& evaluation) {
   ProgressBar bar("mapping", frame_count(loop.range), loop.quiet);
   for_each_frame(
-      loop.range, bar, [&](int frame) { return drive.read(frame); },
+      loop.range,
+      bar,
+      [&](int frame) { return drive.read(frame); },
       [&](int frame, const FrameSet& frames) {
         evaluation.detector.process(frames, drive.T_map_body(frame), &evaluation.clock);
-        evaluation.rows.push_back(
-            {frame, score(evaluation.detector.map().cells(), evaluation.truth.occupied(),
-                          config.occupied_probability)});
+        evaluation.rows.push_back({frame,
+                                   score(evaluation.detector.map().cells(),
+                                         evaluation.truth.occupied(),
+                                         config.occupied_probability)});
       });
 }
 

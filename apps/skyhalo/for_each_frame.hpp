@@ -11,8 +11,9 @@
 
 namespace skyhalo::app {
 
-/// Reads frames ahead on other threads and uses them one by one in order: `read(frame) -> Item`, then
-/// `use(frame, item)`. Memory holds a few frames at most. Stops at a frame's end when interrupted.
+/// Reads frames ahead on other threads and uses them one by one in order: `read(frame) -> Item`,
+/// then `use(frame, item)`. Memory holds a few frames at most. Stops at a frame's end when
+/// interrupted.
 template <class Read, class Use>
 void for_each_frame(FrameRange range, ProgressBar& bar, const Read& read, const Use& use) {
   using Item = std::pair<int, std::invoke_result_t<Read, int>>;

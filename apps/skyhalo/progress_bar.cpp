@@ -45,10 +45,16 @@ void ProgressBar::draw(Clock::time_point now) {
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const double left_s = done_ > 0 ? elapsed_s / done_ * (total_ - done_) : 0.0;
   std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(), "\r%-14s [%s%s] %d/%d  %.0f s, %.0f s to go \x1b[K",
-                label_.c_str(), std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                std::string(static_cast<std::size_t>(kWidth - filled), ' ').c_str(), done_, total_,
-                elapsed_s, left_s);
+  std::snprintf(line.data(),
+                line.size(),
+                "\r%-14s [%s%s] %d/%d  %.0f s, %.0f s to go \x1b[K",
+                label_.c_str(),
+                std::string(static_cast<std::size_t>(filled), '#').c_str(),
+                std::string(static_cast<std::size_t>(kWidth - filled), ' ').c_str(),
+                done_,
+                total_,
+                elapsed_s,
+                left_s);
   std::cerr << line.data() << std::flush;
 }
 

@@ -40,14 +40,15 @@ RunRecord run_frames(const FrameSource& source,
   RunRecord record;
   const auto start = std::chrono::steady_clock::now();
   for_each_frame(
-      range, bar, [&](int frame) { return source.read(frame); },
+      range,
+      bar,
+      [&](int frame) { return source.read(frame); },
       [&](int frame, const FrameSet& frames) {
         const Pose T_map_body = source.T_map_body(frame);
         detector.process(frames, T_map_body, &clock);
         record.trajectory.push_back({frames.stamp, T_map_body});
       });
-  record.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }
 
@@ -71,7 +72,8 @@ void run(const RunOptions& options) {
   const FrameRange range = parse_frames(options.frames, source->frame_count());
   OutputFolder out(options.out);
   ObstacleDetector detector(
-      source->rig(), config.detector,
+      source->rig(),
+      config.detector,
       make_voxel_grid(drive_bounds(*source, config.bounds), config.detector.map.voxel_m));
   StageClock clock;
   RunRecord record;
@@ -106,7 +108,8 @@ void add_run(CLI::App& program) {
       "detection and mapping over a recording\n"
       "writes summary.json, map.ply (occupied cells), map.ot (OctoMap) and trajectory.tum");
   add_source_options(*command, options->source);
-  command->add_option("--map", options->map, "kind of map: global (fixed bounds, follows the drive)")
+  command
+      ->add_option("--map", options->map, "kind of map: global (fixed bounds, follows the drive)")
       ->check(CLI::IsMember({"global"}))
       ->capture_default_str();
   command->add_option("--frames", options->frames, "use only these frames, both included")

@@ -17,6 +17,7 @@ struct SourceOptions {
 void add_source_options(CLI::App& command, SourceOptions& options);
 
 /// Opens the recording at the path. Throws `Error` (input) when it is none that is known.
-std::unique_ptr<KittiRawDrive> open_source(const SourceOptions& options, const DatasetConfig& config);
+std::unique_ptr<KittiRawDrive> open_source(const SourceOptions& options,
+                                           const DatasetConfig& config);
 
 }  // namespace skyhalo::app

@@ -31,7 +31,8 @@ std::vector<StageTimes> StageClock::times() const {
   std::vector<StageTimes> times;
   for (auto [stage, durations_ms] : durations_ms_) {
     std::sort(durations_ms.begin(), durations_ms.end());
-    times.push_back({std::string(name_of(stage)), percentile(durations_ms, 0.5),
+    times.push_back({std::string(name_of(stage)),
+                     percentile(durations_ms, 0.5),
                      percentile(durations_ms, 0.95)});
   }
   return times;

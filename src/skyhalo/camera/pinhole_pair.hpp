@@ -4,14 +4,14 @@
 
 namespace skyhalo {
 
-/// A rectified pinhole stereo pair, seen from its right camera: pixel (u, v) of the right image with
-/// disparity d matches pixel (u + d, v) of the left one. Pixel centres are at integers.
+/// A rectified pinhole stereo pair, seen from its right camera: pixel (u, v) of the right image
+/// with disparity d matches pixel (u + d, v) of the left one. Pixel centres are at integers.
 struct PinholePair {
-  double focal_px = 0.0;               ///< f, > 0
-  double principal_u_px = 0.0;         ///< u0
-  double principal_v_px = 0.0;         ///< v0
-  double baseline_m = 0.0;             ///< B, > 0; the left camera sits at (-B, 0, 0)
-  double disparity_offset_px = 0.0;    ///< added to d where the two principal points differ in u
+  double focal_px = 0.0;             ///< f, > 0
+  double principal_u_px = 0.0;       ///< u0
+  double principal_v_px = 0.0;       ///< v0
+  double baseline_m = 0.0;           ///< B, > 0; the left camera sits at (-B, 0, 0)
+  double disparity_offset_px = 0.0;  ///< added to d where the two principal points differ in u
 };
 
 /// The point (m, `cam`) that pixel (u, v) with disparity d sees (thesis eq. 4.1):
@@ -21,7 +21,8 @@ struct PinholePair {
                                                double v_px,
                                                double disparity_px) noexcept {
   const double m_per_px = pair.baseline_m / (disparity_px + pair.disparity_offset_px);
-  return {(u_px - pair.principal_u_px) * m_per_px, (v_px - pair.principal_v_px) * m_per_px,
+  return {(u_px - pair.principal_u_px) * m_per_px,
+          (v_px - pair.principal_v_px) * m_per_px,
           pair.focal_px * m_per_px};
 }
 
@@ -30,7 +31,8 @@ struct PinholePair {
 [[nodiscard]] inline Eigen::Vector3d project(const PinholePair& pair,
                                              const Eigen::Vector3d& point_m) noexcept {
   const double px_per_m = pair.focal_px / point_m.z();
-  return {point_m.x() * px_per_m + pair.principal_u_px, point_m.y() * px_per_m + pair.principal_v_px,
+  return {point_m.x() * px_per_m + pair.principal_u_px,
+          point_m.y() * px_per_m + pair.principal_v_px,
           pair.baseline_m * px_per_m - pair.disparity_offset_px};
 }
 
@@ -42,7 +44,8 @@ struct PinholePair {
   const double d_px = pixel_and_disparity_px.z() + pair.disparity_offset_px;
   const double m_per_px = pair.baseline_m / (d_px * d_px) * delta_d_px;
   return Eigen::Vector3d(pixel_and_disparity_px.x() - pair.principal_u_px,
-                         pixel_and_disparity_px.y() - pair.principal_v_px, pair.focal_px)
+                         pixel_and_disparity_px.y() - pair.principal_v_px,
+                         pair.focal_px)
              .cwiseAbs() *
          m_per_px;
 }
@@ -56,8 +59,11 @@ struct PinholePair {
 /// disparity offset divided by s, `u0' = (u0 + 0.5)/s - 0.5`.
 [[nodiscard]] inline PinholePair downscaled(const PinholePair& pair, int factor) noexcept {
   const double s = factor;
-  return {pair.focal_px / s, (pair.principal_u_px + 0.5) / s - 0.5,
-          (pair.principal_v_px + 0.5) / s - 0.5, pair.baseline_m, pair.disparity_offset_px / s};
+  return {pair.focal_px / s,
+          (pair.principal_u_px + 0.5) / s - 0.5,
+          (pair.principal_v_px + 0.5) / s - 0.5,
+          pair.baseline_m,
+          pair.disparity_offset_px / s};
 }
 
 }  // namespace skyhalo

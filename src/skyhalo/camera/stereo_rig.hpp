@@ -12,11 +12,11 @@ namespace skyhalo {
 
 /// One stereo pair of the vehicle.
 struct StereoPair {
-  std::string name;                     ///< for messages and file names
-  cv::Size image_size_px;               ///< of the rectified images before any shrinking
-  PinholePair model;                    ///< at that size
-  Pose T_body_camera = Pose::Identity();///< `cam` (rectified right camera) to body
-  std::vector<cv::Rect> masks_px;       ///< airframe, in rectified full-resolution pixels
+  std::string name;                       ///< for messages and file names
+  cv::Size image_size_px;                 ///< of the rectified images before any shrinking
+  PinholePair model;                      ///< at that size
+  Pose T_body_camera = Pose::Identity();  ///< `cam` (rectified right camera) to body
+  std::vector<cv::Rect> masks_px;         ///< airframe, in rectified full-resolution pixels
 };
 
 /// All stereo pairs of the vehicle.

@@ -20,8 +20,8 @@ struct DatasetConfig {
   CameraChoice cameras = CameraChoice::kAuto;
 };
 
-/// Where the global map lies when its bounds are not given: a box that follows the drive, in the frame
-/// of the first pose (METHOD 7).
+/// Where the global map lies when its bounds are not given: a box that follows the drive, in the
+/// frame of the first pose (METHOD 7).
 struct BoundsConfig {
   double ahead_m = 27.0;   ///< beyond the end of the drive
   double behind_m = 0.0;   ///< behind the start
@@ -34,7 +34,8 @@ struct BoundsConfig {
 struct EvaluationConfig {
   double max_range_m = 33.0;          ///< laser points farther from the camera are left out
   double occupied_probability = 0.7;  ///< a cell is called occupied above this
-  bool labels_may_end_early = false;  ///< accept a label file whose last frame is before the drive's
+  bool labels_may_end_early =
+      false;  ///< accept a label file whose last frame is before the drive's
 };
 
 /// Every setting of the program. The aggregates' defaults are the program's defaults.
@@ -45,8 +46,9 @@ struct Config {
   EvaluationConfig evaluation;
 };
 
-/// Reads a YAML file over `config`: keys that the file leaves out stay as they are. Throws `Error` (input)
-/// with file, line and key for syntax errors, unknown keys, wrong types and values outside their domain.
+/// Reads a YAML file over `config`: keys that the file leaves out stay as they are. Throws `Error`
+/// (input) with file, line and key for syntax errors, unknown keys, wrong types and values outside
+/// their domain.
 void load_config(const std::filesystem::path& file, Config& config);
 
 /// Sets one value from `section.key=value`. Throws `Error` (input) as `load_config` does.

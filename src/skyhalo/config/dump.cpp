@@ -8,9 +8,13 @@
 namespace skyhalo {
 namespace {
 
-std::string text_of(int value) { return std::to_string(value); }
+std::string text_of(int value) {
+  return std::to_string(value);
+}
 
-std::string text_of(bool value) { return value ? "true" : "false"; }
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
 
 std::string text_of(double value) {
   std::array<char, 32> text{};
@@ -24,8 +28,8 @@ std::string text_of(InDegrees<const double> value) {
 }
 
 template <class Enum>
-  requires std::is_enum_v<Enum>
-std::string text_of(Enum value) {
+
+requires std::is_enum_v<Enum> std::string text_of(Enum value) {
   for (const auto& [candidate, word] : EnumWords<Enum>::kWords) {
     if (candidate == value) {
       return std::string(word);
@@ -64,7 +68,8 @@ class MarkdownDumper {
 
   template <class T>
   void field(std::string_view key, T&& value, std::string_view meaning) {
-    out_ << "| `" << section_ << "." << key << "` | " << text_of(value) << " | " << meaning << " |\n";
+    out_ << "| `" << section_ << "." << key << "` | " << text_of(value) << " | " << meaning
+         << " |\n";
   }
 
   [[nodiscard]] std::string text() const { return out_.str(); }

@@ -30,79 +30,125 @@ struct EnumWords<CameraChoice> {
                                      std::pair{CameraChoice::kColour, std::string_view("colour")}};
 };
 
-/// The one list of all settings, in the order of the file: loader, dumper, `--set` and the documentation
-/// page walk over it. `ConfigType` is `Config` or `const Config`. A visitor has
-/// `section(name, meaning)` and `field(key, value, meaning)`.
-template <class ConfigType, class Visitor>
-void visit_fields(ConfigType& config, Visitor& visitor) {
-  auto degrees = [](auto& angle_rad) {
-    return InDegrees<std::remove_reference_t<decltype(angle_rad)>>{angle_rad};
-  };
-  visitor.section("dataset", "how recordings are read");
-  visitor.field("cameras", config.dataset.cameras,
-                "which pair of a recording: grey, colour, or auto (grey where there is one)");
+/// Marks an angle for a visitor; keeps its constness.
+template <class Number>
+InDegrees<Number> in_degrees(Number& angle_rad) {
+  return {angle_rad};
+}
 
-  auto& matching = config.detector.matching;
+// The one list of all settings, in the order of the file, a function for each section: loader,
+// dumper, `--set` and the documentation page walk over it. The config is `const` for those that
+// only read. A visitor has `section(name, meaning)` and `field(key, value, meaning)`.
+
+template <class Dataset, class Visitor>
+void visit_dataset(Dataset& dataset, Visitor& visitor) {
+  visitor.section("dataset", "how recordings are read");
+  visitor.field("cameras",
+                dataset.cameras,
+                "which pair of a recording: grey, colour, or auto (grey where there is one)");
+}
+
+template <class Matching, class Visitor>
+void visit_matching(Matching& matching, Visitor& visitor) {
   visitor.section("matching", "from images to disparities (thesis 5.1, 5.2)");
   visitor.field("matcher", matching.matcher.kind, "the engine: opencv");
   visitor.field("downscale", matching.downscale, "whole factor by which images are shrunk, 1...16");
-  visitor.field("max_disparity_px", matching.matcher.max_disparity_px,
+  visitor.field("max_disparity_px",
+                matching.matcher.max_disparity_px,
                 "search range in the matched image, a multiple of 16 in 16...256");
-  visitor.field("rcrop_px", matching.rcrop_px,
+  visitor.field("rcrop_px",
+                matching.rcrop_px,
                 "right-most columns of the matched image to discard (eq. 5.1)");
   visitor.field("block_px", matching.matcher.block_px, "side of the matched block, odd, 1...11");
   visitor.field("paths", matching.matcher.paths, "aggregation paths: 3, 5 or 8");
-  visitor.field("uniqueness_percent", matching.matcher.uniqueness_percent,
+  visitor.field("uniqueness_percent",
+                matching.matcher.uniqueness_percent,
                 "by how much the best cost must beat the others, 0...100");
-  visitor.field("left_right_px", matching.matcher.left_right_px,
+  visitor.field("left_right_px",
+                matching.matcher.left_right_px,
                 "largest difference in the left-right check, at least 1");
-  visitor.field("speckle_size_px", matching.matcher.speckle_size_px,
+  visitor.field("speckle_size_px",
+                matching.matcher.speckle_size_px,
                 "smaller islands of disparity are discarded; 0 for none");
-  visitor.field("speckle_range_px", matching.matcher.speckle_range_px,
+  visitor.field("speckle_range_px",
+                matching.matcher.speckle_range_px,
                 "a step of disparity that parts islands");
+}
 
-  auto& sphere = config.detector.sphere;
+template <class Sphere, class Visitor>
+void visit_sphere(Sphere& sphere, Visitor& visitor) {
   visitor.section("sphere", "from disparities to nearest distances by direction (thesis 5.3)");
-  visitor.field("theta_min_deg", degrees(sphere.bounds.theta_min_rad),
+  visitor.field("theta_min_deg",
+                in_degrees(sphere.bounds.theta_min_rad),
                 "first polar angle; 0 is up, 90 the horizon");
-  visitor.field("theta_max_deg", degrees(sphere.bounds.theta_max_rad), "last polar angle");
-  visitor.field("phi_min_deg", degrees(sphere.bounds.phi_min_rad),
+  visitor.field("theta_max_deg", in_degrees(sphere.bounds.theta_max_rad), "last polar angle");
+  visitor.field("phi_min_deg",
+                in_degrees(sphere.bounds.phi_min_rad),
                 "first azimuth; 0 is forward, positive to the left");
-  visitor.field("phi_max_deg", degrees(sphere.bounds.phi_max_rad), "last azimuth");
-  visitor.field("step_deg", degrees(sphere.bounds.step_rad),
+  visitor.field("phi_max_deg", in_degrees(sphere.bounds.phi_max_rad), "last azimuth");
+  visitor.field("step_deg",
+                in_degrees(sphere.bounds.step_rad),
                 "size of a cell; all bounds are multiples of it");
-  visitor.field("sigma_threshold_m", sphere.sigma_threshold_m,
+  visitor.field("sigma_threshold_m",
+                sphere.sigma_threshold_m,
                 "cells that vary less are one surface (eq. 5.4)");
-  visitor.field("sigma_factor", sphere.sigma_factor,
+  visitor.field("sigma_factor",
+                sphere.sigma_factor,
                 "how many deviations in front of its mean such a cell's depth lies (eq. 5.4)");
   visitor.field("max_range_m", sphere.max_range_m, "points farther from the camera are left out");
+}
 
-  auto& sensor = config.detector.sensor_model;
+template <class Sensor, class Visitor>
+void visit_sensor_model(Sensor& sensor, Visitor& visitor) {
   visitor.section("sensor_model", "from one range to occupancy along its ray (thesis 6.1)");
   visitor.field("k", sensor.k, "how much a sure measurement marks, in (0, 1)");
   visitor.field("p_unknown", sensor.p_unknown, "probability of a cell that nothing is known of");
   visitor.field("p_free", sensor.p_free, "probability that a crossing ray leaves in a cell");
   visitor.field("delta_d_px", sensor.delta_d_px, "expected disparity error in the matched image");
+}
 
+template <class Map, class Visitor>
+void visit_map(Map& map, Visitor& visitor) {
   visitor.section("map", "the occupancy map (thesis 6.2, 7.1)");
-  visitor.field("voxel_m", config.detector.map.voxel_m, "edge of a map cell");
-  visitor.field("log_odds_limit", config.detector.map.log_odds_limit,
+  visitor.field("voxel_m", map.voxel_m, "edge of a map cell");
+  visitor.field("log_odds_limit",
+                map.log_odds_limit,
                 "log odds are kept within plus and minus this, in (0, 32]");
+}
 
+template <class Bounds, class Visitor>
+void visit_bounds(Bounds& bounds, Visitor& visitor) {
   visitor.section("bounds", "of the global map when none are given; frame of the first pose");
-  visitor.field("ahead_m", config.bounds.ahead_m, "beyond the end of the drive");
-  visitor.field("behind_m", config.bounds.behind_m, "behind the start");
-  visitor.field("side_m", config.bounds.side_m, "to the left and to the right");
-  visitor.field("bottom_m", config.bounds.bottom_m, "lowest z");
-  visitor.field("top_m", config.bounds.top_m, "highest z");
+  visitor.field("ahead_m", bounds.ahead_m, "beyond the end of the drive");
+  visitor.field("behind_m", bounds.behind_m, "behind the start");
+  visitor.field("side_m", bounds.side_m, "to the left and to the right");
+  visitor.field("bottom_m", bounds.bottom_m, "lowest z");
+  visitor.field("top_m", bounds.top_m, "highest z");
+}
 
+template <class Evaluation, class Visitor>
+void visit_evaluation(Evaluation& evaluation, Visitor& visitor) {
   visitor.section("evaluation", "how a map is scored (thesis 8)");
-  visitor.field("max_range_m", config.evaluation.max_range_m,
-                "laser points farther from the camera are left out");
-  visitor.field("occupied_probability", config.evaluation.occupied_probability,
+  visitor.field(
+      "max_range_m", evaluation.max_range_m, "laser points farther from the camera are left out");
+  visitor.field("occupied_probability",
+                evaluation.occupied_probability,
                 "a cell is called occupied above this");
-  visitor.field("labels_may_end_early", config.evaluation.labels_may_end_early,
+  visitor.field("labels_may_end_early",
+                evaluation.labels_may_end_early,
                 "accept labels that end before the drive does");
+}
+
+/// All sections of a `Config` or `const Config`.
+template <class AnyConfig, class Visitor>
+void visit_fields(AnyConfig& config, Visitor& visitor) {
+  visit_dataset(config.dataset, visitor);
+  visit_matching(config.detector.matching, visitor);
+  visit_sphere(config.detector.sphere, visitor);
+  visit_sensor_model(config.detector.sensor_model, visitor);
+  visit_map(config.detector.map, visitor);
+  visit_bounds(config.bounds, visitor);
+  visit_evaluation(config.evaluation, visitor);
 }
 
 }  // namespace skyhalo

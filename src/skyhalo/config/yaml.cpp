@@ -70,7 +70,8 @@ class Loader {
       const auto name = section.first.as<std::string>();
       const auto known = known_.find(name);
       if (known == known_.end()) {
-        throw source_.error(section.first.Mark(), name + ": unknown section; known are " + sections());
+        throw source_.error(section.first.Mark(),
+                            name + ": unknown section; known are " + sections());
       }
       for (const auto& entry : section.second) {
         refuse_unknown_key(entry.first, name, known->second);
@@ -102,7 +103,10 @@ class Loader {
   }
 
   template <class T>
-  void read_scalar(const YAML::Node& node, const std::string& path, T& value, const char* expected) {
+  void read_scalar(const YAML::Node& node,
+                   const std::string& path,
+                   T& value,
+                   const char* expected) {
     if (!node.IsScalar() || !YAML::convert<T>::decode(node, value)) {
       throw source_.error(node.Mark(), number_error(node, path, expected));
     }
@@ -127,7 +131,8 @@ class Loader {
   }
 
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
+
   void read(const YAML::Node& node, const std::string& path, Enum& value) {
     std::string expected = "one of";
     for (const auto& [candidate, word] : EnumWords<Enum>::kWords) {

@@ -8,8 +8,8 @@
 
 namespace skyhalo {
 
-/// A recording of stereo frames with poses, whatever its format. Frames are numbered from 0. Reading is
-/// `const` and may be done by several threads at once.
+/// A recording of stereo frames with poses, whatever its format. Frames are numbered from 0.
+/// Reading is `const` and may be done by several threads at once.
 class FrameSource {
  public:
   FrameSource() = default;

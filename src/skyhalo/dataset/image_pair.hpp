@@ -6,20 +6,26 @@
 
 namespace skyhalo {
 
-/// One rectified pair of image files as a recording of one frame, taken by a body at rest in the origin.
+/// One rectified pair of image files as a recording of one frame, taken by a body at rest in the
+/// origin.
 class ImagePairSource final : public FrameSource {
  public:
-  /// Reads both images. `pair.image_size_px` is taken from them; the time stamp is the epoch. Throws `Error`
-  /// (input) naming the file.
+  /// Reads both images. `pair.image_size_px` is taken from them; the time stamp is the epoch.
+  /// Throws `Error` (input) naming the file.
   ImagePairSource(const std::filesystem::path& left,
                   const std::filesystem::path& right,
                   StereoPair pair);
 
   [[nodiscard]] std::string name() const override { return rig_.pairs.front().name; }
+
   [[nodiscard]] const StereoRig& rig() const override { return rig_; }
+
   [[nodiscard]] int frame_count() const override { return 1; }
+
   [[nodiscard]] Timestamp stamp(int) const override { return {}; }
+
   [[nodiscard]] Pose T_map_body(int) const override { return Pose::Identity(); }
+
   [[nodiscard]] FrameSet read(int) const override;
 
  private:

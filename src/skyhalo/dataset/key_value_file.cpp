@@ -24,13 +24,14 @@ KeyValueFile::KeyValueFile(std::filesystem::path file) : file_(std::move(file)) 
 std::vector<double> KeyValueFile::numbers(const std::string& key, std::size_t count) const {
   const auto entry = entries_.find(key);
   if (entry == entries_.end()) {
-    throw input_error(file_, key + ": this key is missing; expected " + std::to_string(count) +
-                                 " numbers");
+    throw input_error(
+        file_, key + ": this key is missing; expected " + std::to_string(count) + " numbers");
   }
   const std::vector<std::string_view> words = split_words(entry->second.values);
   if (words.size() != count) {
-    throw error(key, "expected " + std::to_string(count) + " numbers, found " +
-                         std::to_string(words.size()));
+    throw error(
+        key,
+        "expected " + std::to_string(count) + " numbers, found " + std::to_string(words.size()));
   }
   std::vector<double> values;
   for (const std::string_view word : words) {

@@ -9,8 +9,9 @@
 
 namespace skyhalo {
 
-/// A file of lines `KEY: numbers`, as KITTI's calibration comes. The colon may be missing, lines may end the
-/// Windows way, and lines without a key are skipped. Values that are not numbers matter only when asked for.
+/// A file of lines `KEY: numbers`, as KITTI's calibration comes. The colon may be missing, lines
+/// may end the Windows way, and lines without a key are skipped. Values that are not numbers matter
+/// only when asked for.
 class KeyValueFile {
  public:
   /// Throws `Error` (input) when the file cannot be read.

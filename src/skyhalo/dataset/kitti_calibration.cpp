@@ -15,7 +15,7 @@ constexpr double kRotationTolerance = 1e-4;
 
 Eigen::Matrix3d read_rotation(const KeyValueFile& file, const std::string& key) {
   const std::vector<double> values = file.numbers(key, 9);
-  const Eigen::Matrix3d R = Eigen::Map<const RowMajor3>(values.data());
+  Eigen::Matrix3d R = Eigen::Map<const RowMajor3>(values.data());
   if (!is_rotation(R, kRotationTolerance)) {
     throw file.error(key, "is not a rotation matrix");
   }
@@ -67,13 +67,17 @@ KittiCalibration read_kitti_raw_calibration(const std::filesystem::path& day_fol
   }
   const Pose T_camera_laser = read_transform(KeyValueFile(day_folder / "calib_velo_to_cam.txt"));
   const Pose T_laser_body = read_transform(KeyValueFile(day_folder / "calib_imu_to_velo.txt"));
-  const Eigen::Matrix3d R_rect = read_rotation(cameras, "R_rect_00");
-  return {.pair = {right.focal_px, right.principal_u_px, right.principal_v_px, baseline_m,
-                   right.principal_u_px - left.principal_u_px},
-          .T_body_laser = T_laser_body.inverse(),
-          .T_reference_laser = make_pose(R_rect, Eigen::Vector3d::Zero()) * T_camera_laser,
-          .T_left_reference = make_pose(Eigen::Matrix3d::Identity(), left.t_m),
-          .T_right_reference = make_pose(Eigen::Matrix3d::Identity(), right.t_m)};
+  const Eigen::Matrix3d R_reference_camera = read_rotation(cameras, "R_rect_00");
+  return {
+      .pair = {right.focal_px,
+               right.principal_u_px,
+               right.principal_v_px,
+               baseline_m,
+               right.principal_u_px - left.principal_u_px},
+      .T_body_laser = T_laser_body.inverse(),
+      .T_reference_laser = make_pose(R_reference_camera, Eigen::Vector3d::Zero()) * T_camera_laser,
+      .T_left_reference = make_pose(Eigen::Matrix3d::Identity(), left.t_m),
+      .T_right_reference = make_pose(Eigen::Matrix3d::Identity(), right.t_m)};
 }
 
 }  // namespace skyhalo

@@ -18,8 +18,8 @@ enum class KittiPair {
   return pair == KittiPair::kGrey ? 0 : 2;
 }
 
-/// KITTI's calibration of one rectified pair. Body is the INS: x forward, y left, z up. `reference` is
-/// the rectified camera 00, the frame of the annotations.
+/// KITTI's calibration of one rectified pair. Body is the INS: x forward, y left, z up. `reference`
+/// is the rectified camera 00, the frame of the annotations.
 struct KittiCalibration {
   PinholePair pair;
   Pose T_body_laser = Pose::Identity();
@@ -33,8 +33,8 @@ struct KittiCalibration {
   }
 };
 
-/// Reads `calib_cam_to_cam.txt`, `calib_velo_to_cam.txt` and `calib_imu_to_velo.txt` of a KITTI raw day
-/// folder. Throws `Error` (input) with file, line and key when a key is missing or malformed, a
+/// Reads `calib_cam_to_cam.txt`, `calib_velo_to_cam.txt` and `calib_imu_to_velo.txt` of a KITTI raw
+/// day folder. Throws `Error` (input) with file, line and key when a key is missing or malformed, a
 /// rotation is not one, or the pair has no positive focal length and baseline.
 [[nodiscard]] KittiCalibration read_kitti_raw_calibration(const std::filesystem::path& day_folder,
                                                           KittiPair pair);

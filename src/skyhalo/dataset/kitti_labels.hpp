@@ -22,9 +22,9 @@ class TrackLabels {
  public:
   TrackLabels() = default;
 
-  /// Reads a `label_02/NNNN.txt` file: 17 columns, or 18 with a score. `DontCare` regions have no box and are
-  /// left out. Throws `Error` (input) with file and line for a wrong number of columns, a word that is no
-  /// number, or a box without extent.
+  /// Reads a `label_02/NNNN.txt` file: 17 columns, or 18 with a score. `DontCare` regions have no
+  /// box and are left out. Throws `Error` (input) with file and line for a wrong number of columns,
+  /// a word that is no number, or a box without extent.
   explicit TrackLabels(const std::filesystem::path& file);
 
   /// The objects of a frame; none outside the labelled frames.
@@ -42,8 +42,8 @@ class TrackLabels {
   int last_frame_line_ = 0;
 };
 
-/// The box of label values: height, width, length (m), the bottom centre x, y, z (m) and the rotation about
-/// the camera's y axis (KITTI development kit).
+/// The box of label values: height, width, length (m), the bottom centre x, y, z (m) and the
+/// rotation about the camera's y axis (KITTI development kit).
 struct LabelBox {
   double height_m = 0.0;
   double width_m = 0.0;

@@ -22,8 +22,10 @@ InsReading read_oxts(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::optional<double> value = parse_number(words[i]);
     if (!value) {
-      throw input_error(file, 1, "value " + std::to_string(i + 1) + ": expected a finite number, found '" +
-                                     std::string(words[i]) + "'");
+      throw input_error(file,
+                        1,
+                        "value " + std::to_string(i + 1) + ": expected a finite number, found '" +
+                            std::string(words[i]) + "'");
     }
     values.at(i) = *value;
   }
@@ -37,13 +39,12 @@ Pose T_enu_body(const InsReading& reading, double first_latitude_deg) {
   constexpr double kEarthRadiusM = 6378137.0;
   const double scale = std::cos(rad_from_deg(first_latitude_deg));
   const double east_m = scale * kEarthRadiusM * rad_from_deg(reading.longitude_deg);
-  const double north_m = scale * kEarthRadiusM *
-                         std::log(std::tan(0.5 * rad_from_deg(90.0 + reading.latitude_deg)));
-  const Eigen::Matrix3d R =
-      (Eigen::AngleAxisd(reading.yaw_rad, Eigen::Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(reading.pitch_rad, Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(reading.roll_rad, Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  const double north_m =
+      scale * kEarthRadiusM * std::log(std::tan(0.5 * rad_from_deg(90.0 + reading.latitude_deg)));
+  const Eigen::Matrix3d R = (Eigen::AngleAxisd(reading.yaw_rad, Eigen::Vector3d::UnitZ()) *
+                             Eigen::AngleAxisd(reading.pitch_rad, Eigen::Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(reading.roll_rad, Eigen::Vector3d::UnitX()))
+                                .toRotationMatrix();
   return make_pose(R, {east_m, north_m, reading.altitude_m});
 }
 

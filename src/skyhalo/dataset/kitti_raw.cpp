@@ -20,7 +20,9 @@ std::string file_name(int frame, const char* ending) {
   return {name.data(), static_cast<std::size_t>(length)};
 }
 
-std::string image_folder(int camera) { return "image_0" + std::to_string(camera); }
+std::string image_folder(int camera) {
+  return "image_0" + std::to_string(camera);
+}
 
 KittiPair choose_pair(const fs::path& folder, CameraChoice choice) {
   if (!fs::is_directory(folder)) {
@@ -127,7 +129,9 @@ TruthCamera KittiRawDrive::truth_camera() const {
   // The annotated camera is the left one; its principal point differs from the right one's by the
   // disparity offset.
   const PinholePair& pair = calibration_.pair;
-  return {pair.focal_px, pair.principal_u_px - pair.disparity_offset_px, pair.principal_v_px,
+  return {pair.focal_px,
+          pair.principal_u_px - pair.disparity_offset_px,
+          pair.principal_v_px,
           rig_.pairs.front().image_size_px,
           calibration_.T_left_reference * calibration_.T_reference_laser};
 }

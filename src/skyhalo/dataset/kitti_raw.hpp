@@ -14,24 +14,30 @@ namespace skyhalo {
 [[nodiscard]] bool is_kitti_raw_drive(const std::filesystem::path& folder);
 
 /// A drive of the KITTI raw data, synchronised and rectified: `image_0X/data/NNNNNNNNNN.png`,
-/// `oxts/data`, `velodyne_points/data`, with the day's calibration files in the parent folder. The map
-/// frame is the body's (INS) at frame 0.
+/// `oxts/data`, `velodyne_points/data`, with the day's calibration files in the parent folder. The
+/// map frame is the body's (INS) at frame 0.
 class KittiRawDrive final : public FrameSource, public LaserSource {
  public:
-  /// Reads calibration, time stamps and poses, and sees that no image of the drive is missing. Throws
-  /// `Error` (input) naming file and line.
+  /// Reads calibration, time stamps and poses, and sees that no image of the drive is missing.
+  /// Throws `Error` (input) naming file and line.
   KittiRawDrive(const std::filesystem::path& folder, const DatasetConfig& config);
 
   [[nodiscard]] std::string name() const override { return name_; }
+
   [[nodiscard]] const StereoRig& rig() const override { return rig_; }
+
   [[nodiscard]] int frame_count() const override { return static_cast<int>(stamps_.size()); }
+
   [[nodiscard]] Timestamp stamp(int frame) const override;
   [[nodiscard]] Pose T_map_body(int frame) const override;
   [[nodiscard]] FrameSet read(int frame) const override;
 
   [[nodiscard]] std::optional<LaserScan> read_scan(int frame) const override;
+
   [[nodiscard]] Pose T_body_laser() const override { return calibration_.T_body_laser; }
+
   [[nodiscard]] TruthCamera truth_camera() const override;
+
   [[nodiscard]] Pose T_annotation_laser() const override { return calibration_.T_reference_laser; }
 
  private:
@@ -46,8 +52,8 @@ class KittiRawDrive final : public FrameSource, public LaserSource {
   std::vector<Pose> poses_;  // T_map_body
 };
 
-/// Reads a KITTI `timestamps.txt`: a line `YYYY-MM-DD HH:MM:SS.nnnnnnnnn` per frame, taken as UTC. Throws
-/// `Error` (input) with file and line.
+/// Reads a KITTI `timestamps.txt`: a line `YYYY-MM-DD HH:MM:SS.nnnnnnnnn` per frame, taken as UTC.
+/// Throws `Error` (input) with file and line.
 [[nodiscard]] std::vector<Timestamp> read_kitti_timestamps(const std::filesystem::path& file);
 
 }  // namespace skyhalo

@@ -31,17 +31,19 @@ std::optional<Timestamp> parse_timestamp(std::string_view text) noexcept {
   const int hour = digits(text, 11, 2);
   const int minute = digits(text, 14, 2);
   const std::optional<double> second = parse_number(text.substr(17));
-  const std::chrono::year_month_day day{std::chrono::year(digits(text, 0, 4)),
-                                        std::chrono::month(static_cast<unsigned>(digits(text, 5, 2))),
-                                        std::chrono::day(static_cast<unsigned>(digits(text, 8, 2)))};
+  const std::chrono::year_month_day day{
+      std::chrono::year(digits(text, 0, 4)),
+      std::chrono::month(static_cast<unsigned>(digits(text, 5, 2))),
+      std::chrono::day(static_cast<unsigned>(digits(text, 8, 2)))};
   // Nanoseconds since 1970 reach from 1678 to 2261.
-  const bool year_fits = day.year() >= std::chrono::year(1970) && day.year() <= std::chrono::year(2261);
+  const bool year_fits =
+      day.year() >= std::chrono::year(1970) && day.year() <= std::chrono::year(2261);
   if (!day.ok() || !year_fits || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !second ||
       *second < 0.0 || *second >= 61.0) {
     return std::nullopt;
   }
-  const auto within_minute = std::chrono::round<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(*second));
+  const auto within_minute =
+      std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(*second));
   return std::chrono::sys_days(day) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
          within_minute;
 }
@@ -58,7 +60,8 @@ std::vector<Timestamp> read_kitti_timestamps(const std::filesystem::path& file) 
     }
     const std::optional<Timestamp> stamp = parse_timestamp(line);
     if (!stamp) {
-      throw input_error(file, number, "expected YYYY-MM-DD HH:MM:SS.nnnnnnnnn, found '" + line + "'");
+      throw input_error(
+          file, number, "expected YYYY-MM-DD HH:MM:SS.nnnnnnnnn, found '" + line + "'");
     }
     stamps.push_back(*stamp);
   }

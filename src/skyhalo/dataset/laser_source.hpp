@@ -21,7 +21,8 @@ struct TruthCamera {
   Pose T_camera_laser = Pose::Identity();  ///< scanner to this camera
 };
 
-/// A recording that also has a laser scanner. Reading is `const` and may be done by several threads.
+/// A recording that also has a laser scanner. Reading is `const` and may be done by several
+/// threads.
 class LaserSource {
  public:
   LaserSource() = default;
@@ -31,8 +32,8 @@ class LaserSource {
   LaserSource& operator=(LaserSource&&) = delete;
   virtual ~LaserSource() = default;
 
-  /// A frame's scan; none when the recording lacks it, as some of KITTI's do. Throws `Error` (input)
-  /// naming the file when it is there but cut off or unreadable.
+  /// A frame's scan; none when the recording lacks it, as some of KITTI's do. Throws `Error`
+  /// (input) naming the file when it is there but cut off or unreadable.
   [[nodiscard]] virtual std::optional<LaserScan> read_scan(int frame) const = 0;
 
   [[nodiscard]] virtual Pose T_body_laser() const = 0;

@@ -13,9 +13,10 @@ LaserScan read_velodyne(const std::filesystem::path& file) {
   using Record = std::array<float, 4>;
   const std::string bytes = read_bytes(file);
   if (bytes.empty() || bytes.size() % sizeof(Record) != 0) {
-    throw input_error(file, "is cut off: " + std::to_string(bytes.size()) +
-                                " bytes, expected a multiple of " + std::to_string(sizeof(Record)) +
-                                " above 0");
+    throw input_error(file,
+                      "is cut off: " + std::to_string(bytes.size()) +
+                          " bytes, expected a multiple of " + std::to_string(sizeof(Record)) +
+                          " above 0");
   }
   LaserScan scan;
   scan.reserve(bytes.size() / sizeof(Record));

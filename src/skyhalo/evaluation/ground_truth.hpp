@@ -18,14 +18,15 @@ struct TruthView {
   double max_range_m = 0.0;                    ///< from the camera
 };
 
-/// True when a point (m, camera frame) is in front of the camera, within `max_range_m` of it, and projects
-/// to `0 <= u < width`, `0 <= v < height`.
+/// True when a point (m, camera frame) is in front of the camera, within `max_range_m` of it, and
+/// projects to `0 <= u < width`, `0 <= v < height`.
 [[nodiscard]] bool is_seen(const TruthCamera& camera,
                            const Eigen::Vector3d& point_camera_m,
                            double max_range_m) noexcept;
 
-/// Cells (positions in the grid's memory, sorted, each once) that a scan marks as occupied: those with a point
-/// that the camera sees and that lies in none of the boxes, which hold the moving objects.
+/// Cells (positions in the grid's memory, sorted, each once) that a scan marks as occupied: those
+/// with a point that the camera sees and that lies in none of the boxes, which hold the moving
+/// objects.
 [[nodiscard]] std::vector<std::int64_t> occupied_cells(const LaserScan& scan,
                                                        const TruthView& view,
                                                        std::span<const OrientedBox> boxes,

@@ -11,8 +11,8 @@ namespace {
 constexpr int kFirstValue = std::numeric_limits<LogOdds>::min();
 constexpr std::size_t kValues = 65536;
 
-/// How many cells hold each value, free ones and occupied ones apart. Every score follows from it, exactly and
-/// with one exponential per value instead of one per cell.
+/// How many cells hold each value, free ones and occupied ones apart. Every score follows from it,
+/// exactly and with one exponential per value instead of one per cell.
 using Histogram = std::vector<std::array<std::int64_t, 2>>;
 
 Histogram count_values(std::span<const LogOdds> cells, std::span<const std::uint8_t> truth) {

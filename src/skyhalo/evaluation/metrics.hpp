@@ -23,9 +23,9 @@ struct Metrics {
   double correlation = 0.0;  ///< Pearson's, over all cells; an unobserved cell counts as 0
 };
 
-/// Scores the cells of a map against the truth (1 occupied, 0 free, same order and length). A cell is called
-/// occupied iff its probability is above `occupied_probability`; everything else, unobserved too, is
-/// free.
+/// Scores the cells of a map against the truth (1 occupied, 0 free, same order and length). A cell
+/// is called occupied iff its probability is above `occupied_probability`; everything else,
+/// unobserved too, is free.
 [[nodiscard]] Metrics score(std::span<const LogOdds> map_cells,
                             std::span<const std::uint8_t> truth,
                             double occupied_probability);

@@ -17,22 +17,26 @@ using nlohmann::json;
 /// A score's name in files, and where it is.
 struct ScoreColumn {
   const char* name;
-  double Metrics::* value;
+  double Metrics::*value;
 };
 
 struct CountColumn {
   const char* name;
-  std::int64_t Metrics::* value;
+  std::int64_t Metrics::*value;
 };
 
-constexpr std::array kCounts{CountColumn{"tp", &Metrics::tp}, CountColumn{"fp", &Metrics::fp},
-                             CountColumn{"tn", &Metrics::tn}, CountColumn{"fn", &Metrics::fn}};
+constexpr std::array kCounts{CountColumn{"tp", &Metrics::tp},
+                             CountColumn{"fp", &Metrics::fp},
+                             CountColumn{"tn", &Metrics::tn},
+                             CountColumn{"fn", &Metrics::fn}};
 
-constexpr std::array kScores{
-    ScoreColumn{"accuracy", &Metrics::accuracy},       ScoreColumn{"precision", &Metrics::precision},
-    ScoreColumn{"recall", &Metrics::recall},           ScoreColumn{"specificity", &Metrics::specificity},
-    ScoreColumn{"npv", &Metrics::npv},                 ScoreColumn{"error", &Metrics::error},
-    ScoreColumn{"correlation", &Metrics::correlation}};
+constexpr std::array kScores{ScoreColumn{"accuracy", &Metrics::accuracy},
+                             ScoreColumn{"precision", &Metrics::precision},
+                             ScoreColumn{"recall", &Metrics::recall},
+                             ScoreColumn{"specificity", &Metrics::specificity},
+                             ScoreColumn{"npv", &Metrics::npv},
+                             ScoreColumn{"error", &Metrics::error},
+                             ScoreColumn{"correlation", &Metrics::correlation}};
 
 std::string decimal(double value, int digits) {
   if (!std::isfinite(value)) {

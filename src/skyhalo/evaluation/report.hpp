@@ -48,8 +48,8 @@ struct EvaluationResult {
 /// `metrics.csv`: a header and a row per frame; a score that is not defined is an empty field.
 [[nodiscard]] std::string metrics_csv(const EvaluationResult& result);
 
-/// `table.md`: the last row in the columns of the thesis's table 8.1, with the thesis's own row for the
-/// sequence where it prints one.
+/// `table.md`: the last row in the columns of the thesis's table 8.1, with the thesis's own row for
+/// the sequence where it prints one.
 [[nodiscard]] std::string metrics_table(const EvaluationResult& result);
 
 /// `summary.json` and the `--json` line; a score that is not defined is null.

@@ -13,8 +13,8 @@ struct SphericalPoint {
 };
 
 /// Spherical coordinates of a body-frame point: `rho = |p|`, `theta = acos(z / rho)`,
-/// `phi = atan2(y, x)` (thesis 5.3). The origin itself becomes rho 0, theta 0, phi 0; a point with a
-/// NaN gives NaNs.
+/// `phi = atan2(y, x)` (thesis 5.3). The origin itself becomes rho 0, theta 0, phi 0; a point with
+/// a NaN gives NaNs.
 [[nodiscard]] inline SphericalPoint to_spherical(const Eigen::Vector3d& p_body_m) noexcept {
   const double rho_m = p_body_m.norm();
   if (rho_m == 0.0) {

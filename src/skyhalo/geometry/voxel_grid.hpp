@@ -7,8 +7,8 @@
 
 namespace skyhalo {
 
-/// An axis-aligned box of the map frame divided into equal cubes. Cell (i, j, k) covers the half-open
-/// cube `[min + index * voxel, min + (index + 1) * voxel)`; z runs fastest in memory.
+/// An axis-aligned box of the map frame divided into equal cubes. Cell (i, j, k) covers the
+/// half-open cube `[min + index * voxel, min + (index + 1) * voxel)`; z runs fastest in memory.
 struct VoxelGrid {
   Eigen::Vector3d min_m = Eigen::Vector3d::Zero();  ///< the corner with the smallest coordinates
   double voxel_m = 1.0;                             ///< edge of a cell, > 0
@@ -45,7 +45,8 @@ struct VoxelGrid {
   /// The cell at a position in memory; the inverse of `offset_of`.
   [[nodiscard]] Eigen::Vector3i cell_at(std::int64_t offset) const noexcept {
     const std::int64_t column = offset / size.z();
-    return {static_cast<int>(column / size.y()), static_cast<int>(column % size.y()),
+    return {static_cast<int>(column / size.y()),
+            static_cast<int>(column % size.y()),
             static_cast<int>(offset % size.z())};
   }
 

@@ -14,12 +14,8 @@ struct Rgb {
 };
 
 // Corner points chosen so that perceived lightness grows about linearly along the scale.
-constexpr std::array<Rgb, 6> kStops{{{48, 18, 92},
-                                     {52, 75, 138},
-                                     {38, 122, 142},
-                                     {44, 166, 119},
-                                     {140, 206, 74},
-                                     {250, 230, 60}}};
+constexpr std::array<Rgb, 6> kStops{
+    {{48, 18, 92}, {52, 75, 138}, {38, 122, 142}, {44, 166, 119}, {140, 206, 74}, {250, 230, 60}}};
 
 unsigned char mix(double from, double to, double t) noexcept {
   return static_cast<unsigned char>(std::lround(from + (to - from) * t));

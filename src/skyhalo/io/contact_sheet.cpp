@@ -12,16 +12,26 @@ constexpr int kTitlePx = 28;
 cv::Mat3b scaled_to_width(const cv::Mat3b& picture, int width_px) {
   const double scale = static_cast<double>(width_px) / picture.cols;
   cv::Mat3b tile;
-  cv::resize(picture, tile, cv::Size(width_px, std::max(1, cvRound(picture.rows * scale))), 0.0,
-             0.0, scale < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
+  cv::resize(picture,
+             tile,
+             cv::Size(width_px, std::max(1, cvRound(picture.rows * scale))),
+             0.0,
+             0.0,
+             scale < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
   return tile;
 }
 
 cv::Mat3b with_title(const TitledPicture& titled, int width_px) {
   const cv::Mat3b picture = scaled_to_width(titled.picture, width_px);
   cv::Mat3b tile(picture.rows + kTitlePx, width_px, cv::Vec3b(255, 255, 255));
-  cv::putText(tile, titled.title, {0, 18}, cv::FONT_HERSHEY_SIMPLEX, 0.55, cv::Scalar(40, 40, 40),
-              1, cv::LINE_AA);
+  cv::putText(tile,
+              titled.title,
+              {0, 18},
+              cv::FONT_HERSHEY_SIMPLEX,
+              0.55,
+              cv::Scalar(40, 40, 40),
+              1,
+              cv::LINE_AA);
   picture.copyTo(tile.rowRange(kTitlePx, tile.rows));
   return tile;
 }
@@ -43,7 +53,8 @@ cv::Mat3b contact_sheet(const std::vector<TitledPicture>& pictures, int columns,
     places.emplace_back(kGapPx + column * (width_px + kGapPx), top_px);
     row_height_px = std::max(row_height_px, tiles.back().rows);
   }
-  cv::Mat3b sheet(top_px + row_height_px + kGapPx, kGapPx + columns * (width_px + kGapPx),
+  cv::Mat3b sheet(top_px + row_height_px + kGapPx,
+                  kGapPx + columns * (width_px + kGapPx),
                   cv::Vec3b(255, 255, 255));
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     tiles[i].copyTo(sheet(cv::Rect(places[i], tiles[i].size())));

@@ -41,8 +41,9 @@ void write_octree(const std::filesystem::path& file, const DenseMap& map) {
       const Eigen::Vector3d center_m = grid.center_m(grid.cell_at(offset));
       octomap::OcTreeKey key;
       if (!tree.coordToKeyChecked(center_m.x(), center_m.y(), center_m.z(), key)) {
-        throw Error(ErrorKind::kFailure,
-                    file.string() + ": the map reaches beyond what an octree of this cell can hold");
+        throw Error(
+            ErrorKind::kFailure,
+            file.string() + ": the map reaches beyond what an octree of this cell can hold");
       }
       tree.setNodeValue(key, static_cast<float>(kLogOddsPerUnit * cell), true);
     }

@@ -8,12 +8,13 @@ namespace skyhalo {
 /// Writes a whole file. Throws `Error` (failure) naming the file when it cannot be written.
 void write_bytes(const std::filesystem::path& file, std::string_view bytes);
 
-/// A folder of results that appear all at once: files are written to a hidden folder inside, and `commit`
-/// moves them to their names. Without a commit nothing of them stays, and earlier results in the folder
-/// are untouched.
+/// A folder of results that appear all at once: files are written to a hidden folder inside, and
+/// `commit` moves them to their names. Without a commit nothing of them stays, and earlier results
+/// in the folder are untouched.
 class OutputFolder {
  public:
-  /// Creates the folder and its parents. Throws `Error` (failure) at once when it cannot be written to.
+  /// Creates the folder and its parents. Throws `Error` (failure) at once when it cannot be written
+  /// to.
   explicit OutputFolder(std::filesystem::path folder);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

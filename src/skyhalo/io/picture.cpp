@@ -16,8 +16,9 @@ const cv::Vec3b kWhite(255, 255, 255);
 /// The disparity that 99 % of the measured pixels do not exceed; 1 without any.
 float full_scale(const cv::Mat1f& disparity_px) {
   std::vector<float> values;
-  std::copy_if(disparity_px.begin(), disparity_px.end(), std::back_inserter(values),
-               [](float d) { return d > 0.0F; });
+  std::copy_if(disparity_px.begin(), disparity_px.end(), std::back_inserter(values), [](float d) {
+    return d > 0.0F;
+  });
   if (values.empty()) {
     return 1.0F;
   }
@@ -80,8 +81,8 @@ cv::Mat3b grid_picture(const SphericalGrid& grid, const DepthRule& rule, int cel
 
 cv::Mat3b slice_picture(const DenseMap& map, double z_m, int cell_px) {
   const VoxelGrid& grid = map.grid();
-  const int layer = std::clamp(grid.cell_of({grid.min_m.x(), grid.min_m.y(), z_m}).z(), 0,
-                               grid.size.z() - 1);
+  const int layer =
+      std::clamp(grid.cell_of({grid.min_m.x(), grid.min_m.y(), z_m}).z(), 0, grid.size.z() - 1);
   return picture_from_above(grid, cell_px, [&](int x, int y) {
     const LogOdds cell = cell_of(map, {x, y, layer});
     if (cell == kUnknown) {

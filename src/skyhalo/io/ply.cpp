@@ -10,7 +10,8 @@
 namespace skyhalo {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "floats are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "floats are copied as they lie in memory");
 
 void append(std::string& bytes, float value) {
   std::array<char, sizeof(float)> raw{};

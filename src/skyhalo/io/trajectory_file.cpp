@@ -15,10 +15,18 @@ void write_tum(const std::filesystem::path& file, const std::vector<StampedPose>
     const Eigen::Quaterniond q(pose.T_map_body.linear());
     const auto ns = pose.stamp.time_since_epoch().count();
     std::array<char, 256> line{};
-    const int length = std::snprintf(
-        line.data(), line.size(), "%lld.%09lld %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",
-        static_cast<long long>(ns / 1'000'000'000), static_cast<long long>(ns % 1'000'000'000),
-        t_m.x(), t_m.y(), t_m.z(), q.x(), q.y(), q.z(), q.w());
+    const int length = std::snprintf(line.data(),
+                                     line.size(),
+                                     "%lld.%09lld %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",
+                                     static_cast<long long>(ns / 1'000'000'000),
+                                     static_cast<long long>(ns % 1'000'000'000),
+                                     t_m.x(),
+                                     t_m.y(),
+                                     t_m.z(),
+                                     q.x(),
+                                     q.y(),
+                                     q.z(),
+                                     q.w());
     text.append(line.data(), static_cast<std::size_t>(length));
   }
   write_bytes(file, text);

@@ -14,8 +14,8 @@ struct StampedPose {
   Pose T_map_body = Pose::Identity();
 };
 
-/// Writes poses in the TUM format: `timestamp tx ty tz qx qy qz qw` (s, m, body to map), a line each.
-/// Throws `Error` (failure) when it cannot be written.
+/// Writes poses in the TUM format: `timestamp tx ty tz qx qy qz qw` (s, m, body to map), a line
+/// each. Throws `Error` (failure) when it cannot be written.
 void write_tum(const std::filesystem::path& file, const std::vector<StampedPose>& trajectory);
 
 }  // namespace skyhalo

@@ -43,8 +43,8 @@ struct RayInterval {
 }
 
 /// Visits the cells that a ray crosses, in order, from cell face to cell face (Amanatides and Woo
-/// 1987): `visit(offset, enter_m, leave_m) -> bool`, false to stop. `enter_m` and `leave_m` are distances
-/// along the ray; the first is 0 when the ray starts inside the cell.
+/// 1987): `visit(offset, enter_m, leave_m) -> bool`, false to stop. `enter_m` and `leave_m` are
+/// distances along the ray; the first is 0 when the ray starts inside the cell.
 template <class Visit>
 void walk_ray(const VoxelGrid& grid, const Ray& ray, Visit&& visit) {
   const RayInterval inside = clip(ray, grid);

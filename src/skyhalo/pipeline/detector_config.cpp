@@ -14,23 +14,29 @@ void require(bool holds, const char* key, const char* expected) {
   }
 }
 
-bool positive(double value) noexcept { return value > 0.0 && std::isfinite(value); }
+bool positive(double value) noexcept {
+  return value > 0.0 && std::isfinite(value);
+}
 
-bool not_negative(double value) noexcept { return value >= 0.0 && std::isfinite(value); }
+bool not_negative(double value) noexcept {
+  return value >= 0.0 && std::isfinite(value);
+}
 
 }  // namespace
 
 void check(const DetectorConfig& config) {
-  require(config.matching.downscale >= 1 && config.matching.downscale <= 16, "matching.downscale",
+  require(config.matching.downscale >= 1 && config.matching.downscale <= 16,
+          "matching.downscale",
           "a whole number in 1...16");
   require(config.matching.rcrop_px >= 0, "matching.rcrop_px", "a number of pixels >= 0");
-  require(not_negative(config.sphere.sigma_threshold_m), "sphere.sigma_threshold_m",
-          "a length >= 0 m");
+  require(
+      not_negative(config.sphere.sigma_threshold_m), "sphere.sigma_threshold_m", "a length >= 0 m");
   require(not_negative(config.sphere.sigma_factor), "sphere.sigma_factor", "a number >= 0");
   require(positive(config.sphere.max_range_m), "sphere.max_range_m", "a length above 0 m");
   require(positive(config.map.voxel_m), "map.voxel_m", "a length above 0 m");
   require(config.map.log_odds_limit > 0.0 && config.map.log_odds_limit <= 32.0,
-          "map.log_odds_limit", "a number in (0, 32]");
+          "map.log_odds_limit",
+          "a number in (0, 32]");
   check(config.sensor_model);
   (void)make_grid_geometry(config.sphere.bounds);
 }

@@ -9,8 +9,9 @@ namespace skyhalo {
 
 /// From raw images to a cleaned disparity image (thesis 5.1, 5.2).
 struct MatchingConfig {
-  int downscale = 2;   ///< whole factor by which images are shrunk before matching, >= 1
-  int rcrop_px = 64;   ///< right-most columns of the matched image that are discarded (eq. 5.1), >= 0
+  int downscale = 2;  ///< whole factor by which images are shrunk before matching, >= 1
+  int rcrop_px =
+      64;  ///< right-most columns of the matched image that are discarded (eq. 5.1), >= 0
   MatcherConfig matcher;
 };
 

@@ -29,8 +29,8 @@ int GridRays::integrate(const SphericalGrid& grid,
       const auto& direction_body = directions_[static_cast<std::size_t>(geometry.offset_of(cell))];
       const Ray ray{T_map_body.translation(), T_map_body.linear() * direction_body};
       const double uncertainty_m = delta_z_m(model.pair, *z_m, model.sensor.delta_d_px);
-      skyhalo::integrate(ray, InverseSensorModel(model.sensor, *z_m, uncertainty_m),
-                         model.limit_units, map);
+      skyhalo::integrate(
+          ray, InverseSensorModel(model.sensor, *z_m, uncertainty_m), model.limit_units, map);
       ++rays;
     }
   }

@@ -35,15 +35,19 @@ struct ObstacleDetector::PairEngine {
         matching(config.matching),
         rectifier(config.matching.downscale),
         matcher(config.matching.matcher),
-        geometry{downscaled(pair.model, config.matching.downscale), pair.T_body_camera,
+        geometry{downscaled(pair.model, config.matching.downscale),
+                 pair.T_body_camera,
                  config.sphere.max_range_m},
         seen{.disparity = {},
              .grid = SphericalGrid(make_grid_geometry(config.sphere.bounds)),
-             .depth = {config.sphere.sigma_threshold_m, config.sphere.sigma_factor,
+             .depth = {config.sphere.sigma_threshold_m,
+                       config.sphere.sigma_factor,
                        min_depth_m(geometry.model, config.matching.matcher.max_disparity_px)},
              .pixels = {}},
         rays(seen.grid.geometry()),
-        range_model{geometry.model, config.sensor_model, seen.depth,
+        range_model{geometry.model,
+                    config.sensor_model,
+                    seen.depth,
                     static_cast<int>(std::lround(config.map.log_odds_limit / kLogOddsPerUnit))} {}
 
   void rectify(const StereoImages& images) { rectified = &rectifier.rectify(images); }
@@ -113,15 +117,16 @@ const PairPerception& ObstacleDetector::perception(std::size_t pair) const {
 
 void ObstacleDetector::check_frames(const FrameSet& frames) const {
   if (frames.pairs.size() != pairs_.size()) {
-    throw Error(ErrorKind::kInput, "frame set: " + std::to_string(frames.pairs.size()) +
-                                       " pairs of images for a rig of " +
-                                       std::to_string(pairs_.size()));
+    throw Error(ErrorKind::kInput,
+                "frame set: " + std::to_string(frames.pairs.size()) +
+                    " pairs of images for a rig of " + std::to_string(pairs_.size()));
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const StereoPair& pair = pairs_[i].description;
     if (frames.pairs[i].left.size() != pair.image_size_px ||
         frames.pairs[i].right.size() != pair.image_size_px) {
-      throw Error(ErrorKind::kInput, "pair " + pair.name + ": images of another size than the rig's");
+      throw Error(ErrorKind::kInput,
+                  "pair " + pair.name + ": images of another size than the rig's");
     }
   }
 }

@@ -33,8 +33,8 @@ class ObstacleDetector {
   ObstacleDetector& operator=(ObstacleDetector&&) noexcept;
   ~ObstacleDetector();
 
-  /// Takes in one frame set, one entry per pair of the rig. Throws `Error` (input), and leaves the map as
-  /// it was, when the images do not fit the rig.
+  /// Takes in one frame set, one entry per pair of the rig. Throws `Error` (input), and leaves the
+  /// map as it was, when the images do not fit the rig.
   void process(const FrameSet& frames, const Pose& T_map_body, StageObserver* observer = nullptr);
 
   /// One pair's view of the last frame; valid until the next one.

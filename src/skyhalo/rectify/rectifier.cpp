@@ -32,9 +32,9 @@ const RectifiedPair& Rectifier::rectify(const StereoImages& images) {
   check_image(images.left);
   check_image(images.right);
   if (images.left.size() != images.right.size()) {
-    throw Error(ErrorKind::kInput, "stereo pair: the left image has " +
-                                       size_text(images.left.size()) + " pixels, the right one " +
-                                       size_text(images.right.size()));
+    throw Error(ErrorKind::kInput,
+                "stereo pair: the left image has " + size_text(images.left.size()) +
+                    " pixels, the right one " + size_text(images.right.size()));
   }
   if (images.left.cols < factor_ || images.left.rows < factor_) {
     throw Error(ErrorKind::kInput, "stereo pair: images smaller than the down-scaling factor");

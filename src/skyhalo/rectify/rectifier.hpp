@@ -12,9 +12,9 @@ struct RectifiedPair {
   cv::Mat1b right;
 };
 
-/// Brings the images of an already rectified pair to the matched resolution: grey, 8 bit, shrunk by a
-/// whole factor with area averaging. Rows and columns beyond a multiple of the factor are left out at
-/// the bottom and right, so that `downscaled(model, factor)` describes the result exactly.
+/// Brings the images of an already rectified pair to the matched resolution: grey, 8 bit, shrunk by
+/// a whole factor with area averaging. Rows and columns beyond a multiple of the factor are left
+/// out at the bottom and right, so that `downscaled(model, factor)` describes the result exactly.
 /// One object per pair; not for use by two threads at once.
 class Rectifier {
  public:

@@ -18,16 +18,16 @@ struct SensorModelConfig {
 /// Throws `Error` (input) naming the key when a setting is outside its domain.
 void check(const SensorModelConfig& config);
 
-/// Range uncertainty of a pinhole pair at range z (thesis eq. 6.9): `z^2 delta_d / (B f)`, in m; f of
-/// the matched resolution.
+/// Range uncertainty of a pinhole pair at range z (thesis eq. 6.9): `z^2 delta_d / (B f)`, in m; f
+/// of the matched resolution.
 [[nodiscard]] inline double delta_z_m(const PinholePair& pair,
                                       double z_m,
                                       double delta_d_px) noexcept {
   return z_m * z_m * delta_d_px / (pair.baseline_m * pair.focal_px);
 }
 
-/// The inverse sensor model along one ray with measurement z (thesis eq. 6.4 to 6.6). The constants of
-/// the ray are worked out once; then each map cell on it is asked by its distance m.
+/// The inverse sensor model along one ray with measurement z (thesis eq. 6.4 to 6.6). The constants
+/// of the ray are worked out once; then each map cell on it is asked by its distance m.
 class InverseSensorModel {
  public:
   /// Measurement z_m > 0 with uncertainty delta_z_m > 0; settings inside their domain.
@@ -48,8 +48,8 @@ class InverseSensorModel {
     return p_unknown_ + a_ * std::exp(-0.5 * x * x);
   }
 
-  /// Distance from which a cell in front of the measurement is indistinguishable from merely crossed
-  /// (six deviations; the difference is below 1e-8).
+  /// Distance from which a cell in front of the measurement is indistinguishable from merely
+  /// crossed (six deviations; the difference is below 1e-8).
   [[nodiscard]] double free_until_m() const noexcept { return z_m_ - 6.0 * delta_z_m_; }
 
   /// The peak's height above p_unknown: `a` (thesis eq. 6.5).

@@ -21,8 +21,10 @@ struct PairGeometry {
   double max_range_m = 0.0;  ///< farther points (from the camera) are left out, > 0
 };
 
-/// Adds every valid pixel of a disparity image (px, NaN = none, aligned with the right image) to the
-/// grid, as the point `T_body_camera * reproject(u, v, d)` (thesis eq. 5.2).
-PixelCounts accumulate(const cv::Mat1f& disparity, const PairGeometry& pair, SphericalGrid& grid) noexcept;
+/// Adds every valid pixel of a disparity image (px, NaN = none, aligned with the right image) to
+/// the grid, as the point `T_body_camera * reproject(u, v, d)` (thesis eq. 5.2).
+PixelCounts accumulate(const cv::Mat1f& disparity,
+                       const PairGeometry& pair,
+                       SphericalGrid& grid) noexcept;
 
 }  // namespace skyhalo

@@ -17,8 +17,9 @@ struct GridCell {
   friend bool operator==(const GridCell&, const GridCell&) = default;
 };
 
-/// How the sphere round the body is divided (METHOD 3): `[theta_min, theta_max) x [phi_min, phi_max)` in
-/// equal steps. Bounds are multiples of the steps, so that all grids of one body are aligned.
+/// How the sphere round the body is divided (METHOD 3): `[theta_min, theta_max) x [phi_min,
+/// phi_max)` in equal steps. Bounds are multiples of the steps, so that all grids of one body are
+/// aligned.
 struct GridGeometry {
   double theta_min_rad = 0.0;  ///< first polar angle, >= 0 (0 is up)
   double theta_step_rad = 0.0;
@@ -33,8 +34,8 @@ struct GridGeometry {
   [[nodiscard]] int offset_of(GridCell cell) const noexcept { return cell.row * cols + cell.col; }
 
   /// The cell that a direction falls into, theta in [0, pi] and phi in [-pi, pi]; none outside the
-  /// bounds or for NaN. Straight backwards (phi = pi) is the first column of a whole circle, straight
-  /// down (theta = pi) the last row of a grid that ends there.
+  /// bounds or for NaN. Straight backwards (phi = pi) is the first column of a whole circle,
+  /// straight down (theta = pi) the last row of a grid that ends there.
   [[nodiscard]] std::optional<GridCell> cell_of(double theta_rad, double phi_rad) const noexcept {
     constexpr double kPi = std::numbers::pi;
     const double wrapped_rad = phi_rad < kPi ? phi_rad : phi_rad - 2.0 * kPi;
@@ -63,9 +64,9 @@ struct GridBounds {
   double step_rad = 0.0;  ///< of both angles
 };
 
-/// The grid with these bounds. Throws `Error` (input) naming what is wrong unless the step is above 0,
-/// `0 <= theta_min < theta_max <= pi`, `-pi <= phi_min < phi_max <= pi`, all bounds are multiples of
-/// the step (within 1e-6 of a step) and there are at most 10^7 cells.
+/// The grid with these bounds. Throws `Error` (input) naming what is wrong unless the step is above
+/// 0, `0 <= theta_min < theta_max <= pi`, `-pi <= phi_min < phi_max <= pi`, all bounds are
+/// multiples of the step (within 1e-6 of a step) and there are at most 10^7 cells.
 [[nodiscard]] GridGeometry make_grid_geometry(const GridBounds& bounds);
 
 }  // namespace skyhalo

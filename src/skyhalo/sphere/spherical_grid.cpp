@@ -8,7 +8,9 @@ namespace skyhalo {
 SphericalGrid::SphericalGrid(const GridGeometry& geometry)
     : geometry_(geometry), cells_(static_cast<std::size_t>(geometry.cell_count())) {}
 
-void SphericalGrid::clear() noexcept { std::fill(cells_.begin(), cells_.end(), Sums{}); }
+void SphericalGrid::clear() noexcept {
+  std::fill(cells_.begin(), cells_.end(), Sums{});
+}
 
 void SphericalGrid::add(const Eigen::Vector3d& p_body_m) noexcept {
   const SphericalPoint point = to_spherical(p_body_m);

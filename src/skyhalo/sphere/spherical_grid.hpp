@@ -22,8 +22,8 @@ struct CellStatistics {
   double min_m = 0.0;
 };
 
-/// One pair's view as nearest distances by direction (thesis 5.3). Cells keep running sums, never their
-/// points. Adding is deterministic: the same points in the same order give the same bits.
+/// One pair's view as nearest distances by direction (thesis 5.3). Cells keep running sums, never
+/// their points. Adding is deterministic: the same points in the same order give the same bits.
 class SphericalGrid {
  public:
   explicit SphericalGrid(const GridGeometry& geometry);
@@ -33,7 +33,8 @@ class SphericalGrid {
   /// Forgets all points; keeps the memory.
   void clear() noexcept;
 
-  /// Adds a point (m, body). One that is outside the bounds, at the origin or not finite is ignored.
+  /// Adds a point (m, body). One that is outside the bounds, at the origin or not finite is
+  /// ignored.
   void add(const Eigen::Vector3d& p_body_m) noexcept;
 
   /// Statistics of a cell; none for a cell without points.

@@ -8,9 +8,13 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-int floor_div(int a, int b) noexcept { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+int floor_div(int a, int b) noexcept {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 
-int ceil_div(int a, int b) noexcept { return -floor_div(-a, b); }
+int ceil_div(int a, int b) noexcept {
+  return -floor_div(-a, b);
+}
 
 }  // namespace
 

@@ -8,8 +8,8 @@
 
 namespace skyhalo {
 
-/// Dense stereo matching behind one interface, whatever engine does it. Holds the engine's memory: one
-/// object per pair; not for use by two threads at once.
+/// Dense stereo matching behind one interface, whatever engine does it. Holds the engine's memory:
+/// one object per pair; not for use by two threads at once.
 class Matcher {
  public:
   /// Throws `Error` (input) naming the key when a setting is outside its domain.

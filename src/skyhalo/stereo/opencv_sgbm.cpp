@@ -32,9 +32,16 @@ void mirror_row(const std::int16_t* fixed, float* disparity_px, int width) noexc
 OpencvSgbm::OpencvSgbm(const MatcherConfig& config) : max_disparity_px_(config.max_disparity_px) {
   const int area_px = config.block_px * config.block_px;
   // The smoothness penalties that OpenCV's documentation advises for one channel.
-  sgbm_ = cv::StereoSGBM::create(0, config.max_disparity_px, config.block_px, 8 * area_px,
-                                 32 * area_px, config.left_right_px, 63, config.uniqueness_percent,
-                                 config.speckle_size_px, config.speckle_range_px,
+  sgbm_ = cv::StereoSGBM::create(0,
+                                 config.max_disparity_px,
+                                 config.block_px,
+                                 8 * area_px,
+                                 32 * area_px,
+                                 config.left_right_px,
+                                 63,
+                                 config.uniqueness_percent,
+                                 config.speckle_size_px,
+                                 config.speckle_range_px,
                                  mode_of(config.paths));
 }
 

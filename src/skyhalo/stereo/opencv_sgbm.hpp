@@ -7,15 +7,15 @@
 
 namespace skyhalo {
 
-/// OpenCV's semi-global block matching, turned to the right image. It aligns with its left input, so
-/// both images are mirrored and exchanged, and the result is mirrored back.
+/// OpenCV's semi-global block matching, turned to the right image. It aligns with its left input,
+/// so both images are mirrored and exchanged, and the result is mirrored back.
 class OpencvSgbm {
  public:
   /// Settings inside their domain (`Matcher` checks them).
   explicit OpencvSgbm(const MatcherConfig& config);
 
-  /// See `Matcher::match`. The right-most `max_disparity_px` columns stay empty: OpenCV does not match
-  /// pixels whose search range leaves the other image.
+  /// See `Matcher::match`. The right-most `max_disparity_px` columns stay empty: OpenCV does not
+  /// match pixels whose search range leaves the other image.
   void match(const cv::Mat1b& left, const cv::Mat1b& right, cv::Mat1f& disparity);
 
  private:
