@@ -29,25 +29,47 @@ if ! command -v dpkg-query >/dev/null; then
   exit 1
 fi
 
+if [ "$(id -u)" = 0 ]; then
+  as_root=
+elif command -v sudo >/dev/null; then
+  as_root=sudo
+else
+  as_root=none
+fi
+
+require_root() {
+  if [ "$as_root" = none ]; then
+    echo "setup: run this as root, or install sudo; missing: $*" >&2
+    exit 1
+  fi
+}
+
+# Slim container images leave out what packages put under /usr/share/doc, and the demo's images are there.
+demo_images=/usr/share/doc/opencv-doc/examples/data
+fetch_demo_images() {
+  [ -e $demo_images/aloeL.jpg ] && [ -e $demo_images/aloeR.jpg ] && return
+  require_root "$demo_images"
+  echo "setup: fetching the demo's images, which this system's dpkg leaves out"
+  folder=$(mktemp -d)
+  (cd "$folder" && chmod 755 . && apt-get download -qq opencv-doc &&
+    dpkg-deb --fsys-tarfile opencv-doc_*.deb | $as_root tar -x -C / ./${demo_images#/})
+  rm -rf "$folder"
+}
+
 missing=
 for package in $wanted; do
   state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
   [ "$state" = installed ] || missing="$missing $package"
 done
 if [ -z "$missing" ]; then
+  fetch_demo_images
   echo "setup: all packages are installed"
   exit 0
 fi
 
-if [ "$(id -u)" = 0 ]; then
-  as_root=
-elif command -v sudo >/dev/null; then
-  as_root=sudo
-else
-  echo "setup: run this as root, or install sudo; missing packages:$missing" >&2
-  exit 1
-fi
+require_root $missing
 echo "setup: installing$missing"
 $as_root apt-get update -qq
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
+fetch_demo_images
 echo "setup: done"
