@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace skyhalo::testing {
+
+/// A key of the configuration with a value in its domain that is not the default.
+struct ConfigKey {
+  std::string key;
+  std::string value;
+};
+
+/// Every key of the configuration file. Written out by hand, so that a key that gets lost is seen.
+inline std::vector<ConfigKey> config_keys() {
+  return {{"dataset.cameras", "colour"},
+          {"matching.downscale", "4"},
+          {"matching.max_disparity_px", "128"},
+          {"matching.rcrop_px", "32"},
+          {"matching.block_px", "5"},
+          {"matching.paths", "8"},
+          {"matching.uniqueness_percent", "7"},
+          {"matching.left_right_px", "2"},
+          {"matching.speckle_size_px", "50"},
+          {"matching.speckle_range_px", "3"},
+          {"sphere.theta_min_deg", "45"},
+          {"sphere.theta_max_deg", "135"},
+          {"sphere.phi_min_deg", "-60"},
+          {"sphere.phi_max_deg", "61"},
+          {"sphere.step_deg", "0.5"},
+          {"sphere.sigma_threshold_m", "0.25"},
+          {"sphere.sigma_factor", "2.5"},
+          {"sphere.max_range_m", "20.125"},
+          {"sensor_model.k", "0.625"},
+          {"sensor_model.p_unknown", "0.45"},
+          {"sensor_model.p_free", "0.35"},
+          {"sensor_model.delta_d_px", "0.75"},
+          {"map.voxel_m", "0.2"},
+          {"map.log_odds_limit", "3.5"},
+          {"bounds.ahead_m", "10"},
+          {"bounds.behind_m", "1.5"},
+          {"bounds.side_m", "12.5"},
+          {"bounds.bottom_m", "-1"},
+          {"bounds.top_m", "4.25"},
+          {"evaluation.max_range_m", "25"},
+          {"evaluation.occupied_probability", "0.6"},
+          {"evaluation.labels_may_end_early", "true"}};
+}
+
+}  // namespace skyhalo::testing
