@@ -45,7 +45,7 @@ Eigen::AlignedBox3d parse_bounds(const std::string& text) {
     }
     values.push_back(*value);
   }
-  if (values.size() != 6) {
+  if (values.size() != 6 || text.ends_with(',')) {
     throw bad();
   }
   return {Eigen::Vector3d(values[0], values[2], values[4]),

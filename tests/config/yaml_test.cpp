@@ -117,7 +117,7 @@ TEST(YamlTest, AWrongTypeIsRefused) {
                   {"evaluation:\n  labels_may_end_early: 2\n", 2, "labels_may_end_early"},
                   {"dataset:\n  cameras: left\n", 2, "dataset.cameras"},
                   {"sphere: 3\n", 1, "sphere"},
-                  {"sphere:\n  - step_deg\n", 2, "sphere"}});
+                  {"sphere: [step_deg]\n", 1, "sphere"}});
 }
 
 TEST(YamlTest, AKeyWithoutAValueIsRefused) {

@@ -22,7 +22,7 @@ using testing::message_of;
 using testing::TempFolder;
 
 /// 2011-09-26 13:02:25: 15 243 days (see the time stamps' own test) and 46 945 s.
-constexpr std::int64_t kSecond = 15243LL * 86400 + 13 * 3600 + 2 * 60 + 25;
+constexpr std::int64_t kSecond = 15243LL * 86400 + 13 * 3600LL + 2 * 60LL + 25;
 
 Timestamp stamp_at(std::int64_t second, std::int64_t nanosecond) {
   return Timestamp{std::chrono::nanoseconds(second * 1'000'000'000 + nanosecond)};

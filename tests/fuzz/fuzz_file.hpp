@@ -11,8 +11,8 @@
 
 namespace skyhalo::fuzz {
 
-/// Hands the bytes to `read(file)` as a file. An `Error` is what bad input should give; anything else ends
-/// the fuzzer.
+/// Hands the bytes to `read(file)` as a file. An `Error` is what bad input should give; anything
+/// else ends the fuzzer.
 template <class Read>
 int as_file(const std::uint8_t* bytes, std::size_t size, const Read& read) {
   static const std::filesystem::path file =

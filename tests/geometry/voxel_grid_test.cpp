@@ -41,16 +41,23 @@ TEST(VoxelGridTest, APointThatIsNotFiniteIsOutside) {
 
 TEST(VoxelGridTest, ALengthThatIsNoWholeNumberOfVoxelsGrows) {
   const VoxelGrid grid = make_voxel_grid(box({0, 0, 0}, {1.0, 1.1, 0.3}), 0.1);
-  EXPECT_EQ(grid.size, Eigen::Vector3i(10, 11, 3));  // 1.1 / 0.1 is slightly above 11 in floating point
+  EXPECT_EQ(grid.size,
+            Eigen::Vector3i(10, 11, 3));  // 1.1 / 0.1 is slightly above 11 in floating point
   EXPECT_EQ(make_voxel_grid(box({0, 0, 0}, {1, 1, 1}), 0.3).size, Eigen::Vector3i(4, 4, 4));
 }
 
 TEST(VoxelGridTest, RefusesBoundsThatAreNone) {
-  EXPECT_THAT(message_of([] { (void)make_voxel_grid(box({0, 5, 0}, {1, -5, 1}), 0.5); }),
+  EXPECT_THAT(message_of([] {
+                (void)make_voxel_grid(box({0, 5, 0}, {1, -5, 1}), 0.5);
+              }),
               ::testing::HasSubstr("y runs from 5 to -5"));
-  EXPECT_THAT(message_of([] { (void)make_voxel_grid(box({0, 0, 0}, {1, 1, 1}), 0.0); }),
+  EXPECT_THAT(message_of([] {
+                (void)make_voxel_grid(box({0, 0, 0}, {1, 1, 1}), 0.0);
+              }),
               ::testing::HasSubstr("voxel"));
-  EXPECT_THAT(message_of([] { (void)make_voxel_grid(box({0, 0, 0}, {1e5, 1e5, 1e5}), 0.1); }),
+  EXPECT_THAT(message_of([] {
+                (void)make_voxel_grid(box({0, 0, 0}, {1e5, 1e5, 1e5}), 0.1);
+              }),
               ::testing::HasSubstr("2^31"));
 }
 

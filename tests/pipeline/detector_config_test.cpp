@@ -91,7 +91,7 @@ TEST(DetectorConfigTest, RefusesASensorModelOutsideItsDomain) {
 TEST(DetectorConfigTest, RefusesGridBoundsThatAreNone) {
   DetectorConfig step;
   step.sphere.bounds.step_rad = 0.0;
-  EXPECT_THAT(refusal(step), HasSubstr("spherical grid"));
+  EXPECT_THAT(refusal(step), HasSubstr("sphere.step_deg"));
   DetectorConfig multiple;
   multiple.sphere.bounds.step_rad = rad_from_deg(7.0);
   EXPECT_THAT(refusal(multiple), HasSubstr("multiple"));

@@ -8,8 +8,8 @@
 
 namespace skyhalo::testing {
 
-/// The message of the `Error` that `action` throws; fails the test when there is none or it is of another
-/// kind.
+/// The message of the `Error` that `action` throws; fails the test when there is none or it is of
+/// another kind.
 template <class Action>
 std::string message_of(Action&& action, ErrorKind kind = ErrorKind::kInput) {
   try {

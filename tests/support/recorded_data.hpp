@@ -25,8 +25,8 @@ inline std::filesystem::path recorded_labels() {
 }  // namespace skyhalo::testing
 
 /// Skips the test, and says so, when a recording is not there.
-#define SKYHALO_SKIP_WITHOUT(path)                                                              \
-  if (!std::filesystem::exists(path)) {                                                         \
-    GTEST_SKIP() << "no recorded data at " << (path) << "; set SKYHALO_DATA to test on it";     \
-  }                                                                                             \
+#define SKYHALO_SKIP_WITHOUT(path)                                                          \
+  if (!std::filesystem::exists(path)) {                                                     \
+    GTEST_SKIP() << "no recorded data at " << (path) << "; set SKYHALO_DATA to test on it"; \
+  }                                                                                         \
   static_assert(true)

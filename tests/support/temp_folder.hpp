@@ -20,10 +20,12 @@ class TempFolder {
             ("skyhalo-test-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
     std::filesystem::create_directories(path_);
   }
+
   TempFolder(const TempFolder&) = delete;
   TempFolder& operator=(const TempFolder&) = delete;
   TempFolder(TempFolder&&) = delete;
   TempFolder& operator=(TempFolder&&) = delete;
+
   ~TempFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

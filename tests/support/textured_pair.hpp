@@ -15,8 +15,8 @@ inline cv::Mat1b texture(const cv::Size& size, unsigned seed) {
   return smooth;
 }
 
-/// A rectified pair that sees one plane at a whole disparity everywhere: right pixel (u, v) is left pixel
-/// (u + disparity, v).
+/// A rectified pair that sees one plane at a whole disparity everywhere: right pixel (u, v) is left
+/// pixel (u + disparity, v).
 struct TexturedPair {
   cv::Mat1b left;
   cv::Mat1b right;

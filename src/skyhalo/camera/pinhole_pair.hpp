@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace skyhalo {
 
@@ -15,12 +16,14 @@ struct PinholePair {
 };
 
 /// The point (m, `cam`) that pixel (u, v) with disparity d sees (thesis eq. 4.1):
-/// `((u-u0) B/d, (v-v0) B/d, f B/d)`. A disparity that is not above 0 gives no finite point.
+/// `((u-u0) B/d, (v-v0) B/d, f B/d)`. A disparity that is not above 0, offset included, gives NaN.
 [[nodiscard]] inline Eigen::Vector3d reproject(const PinholePair& pair,
                                                double u_px,
                                                double v_px,
                                                double disparity_px) noexcept {
-  const double m_per_px = pair.baseline_m / (disparity_px + pair.disparity_offset_px);
+  const double d_px = disparity_px + pair.disparity_offset_px;
+  const double m_per_px =
+      d_px > 0.0 ? pair.baseline_m / d_px : std::numeric_limits<double>::quiet_NaN();
   return {(u_px - pair.principal_u_px) * m_per_px,
           (v_px - pair.principal_v_px) * m_per_px,
           pair.focal_px * m_per_px};

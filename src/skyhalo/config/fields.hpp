@@ -113,7 +113,7 @@ void visit_map(Map& map, Visitor& visitor) {
   visitor.field("voxel_m", map.voxel_m, "edge of a map cell");
   visitor.field("log_odds_limit",
                 map.log_odds_limit,
-                "log odds are kept within plus and minus this, in (0, 32]");
+                "log odds are kept within plus and minus this, 0.001...32");
 }
 
 template <class Bounds, class Visitor>

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -29,9 +30,26 @@ class Source {
   bool has_lines_;
 };
 
-std::string number_error(const YAML::Node& node, const std::string& path, const char* expected) {
+std::string wrong_type(const YAML::Node& node, const std::string& path, const char* expected) {
   return path + ": expected " + expected + ", found '" +
          (node.IsScalar() ? node.Scalar() : std::string("a list or map")) + "'";
+}
+
+/// An entry of a map: its key knows its line even where the value is empty.
+struct Entry {
+  YAML::Node key;
+  YAML::Node value;
+};
+
+std::optional<Entry> find_entry(const YAML::Node& map, std::string_view name) {
+  if (map.IsMap()) {
+    for (const auto& entry : map) {
+      if (entry.first.IsScalar() && entry.first.Scalar() == name) {
+        return Entry{entry.first, entry.second};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 /// Reads the fields that a document has; the others stay.
@@ -41,26 +59,21 @@ class Loader {
 
   void section(std::string_view name, std::string_view) {
     section_ = name;
-    node_.reset();
-    const YAML::Node& document = document_;
-    if (const YAML::Node found = document[section_]) {
-      if (!found.IsMap() && !found.IsNull()) {
-        throw source_.error(found.Mark(), section_ + ": expected a section with keys");
+    fields_.reset();
+    known_.try_emplace(section_);
+    if (const std::optional<Entry> found = find_entry(document_, name)) {
+      if (!found->value.IsMap() && !found->value.IsNull()) {
+        throw source_.error(found->key.Mark(), section_ + ": expected a section with keys");
       }
-      node_.reset(found);
+      fields_.reset(found->value);
     }
   }
 
   template <class T>
   void field(std::string_view key, T&& value, std::string_view) {
-    const std::string name(key);
-    known_[section_].insert(name);
-    const YAML::Node& node = node_;
-    if (!node.IsMap()) {
-      return;
-    }
-    if (const YAML::Node found = node[name]) {
-      read(found, section_ + "." + name, value);
+    known_[section_].insert(std::string(key));
+    if (const std::optional<Entry> found = find_entry(fields_, key)) {
+      read(*found, section_ + "." + std::string(key), value);
     }
   }
 
@@ -103,52 +116,49 @@ class Loader {
   }
 
   template <class T>
-  void read_scalar(const YAML::Node& node,
-                   const std::string& path,
-                   T& value,
-                   const char* expected) {
-    if (!node.IsScalar() || !YAML::convert<T>::decode(node, value)) {
-      throw source_.error(node.Mark(), number_error(node, path, expected));
+  void read_scalar(const Entry& entry, const std::string& path, T& value, const char* expected) {
+    if (!entry.value.IsScalar() || !YAML::convert<T>::decode(entry.value, value)) {
+      throw source_.error(entry.key.Mark(), wrong_type(entry.value, path, expected));
     }
   }
 
-  void read(const YAML::Node& node, const std::string& path, int& value) {
-    read_scalar(node, path, value, "a whole number");
+  void read(const Entry& entry, const std::string& path, int& value) {
+    read_scalar(entry, path, value, "a whole number");
   }
 
-  void read(const YAML::Node& node, const std::string& path, double& value) {
-    read_scalar(node, path, value, "a number");
+  void read(const Entry& entry, const std::string& path, double& value) {
+    read_scalar(entry, path, value, "a number");
   }
 
-  void read(const YAML::Node& node, const std::string& path, bool& value) {
-    read_scalar(node, path, value, "true or false");
+  void read(const Entry& entry, const std::string& path, bool& value) {
+    read_scalar(entry, path, value, "true or false");
   }
 
-  void read(const YAML::Node& node, const std::string& path, InDegrees<double>& value) {
+  void read(const Entry& entry, const std::string& path, InDegrees<double>& value) {
     double angle_deg = 0.0;
-    read_scalar(node, path, angle_deg, "an angle in degrees");
+    read_scalar(entry, path, angle_deg, "an angle in degrees");
     value.angle_rad = rad_from_deg(angle_deg);
   }
 
   template <class Enum>
   requires std::is_enum_v<Enum>
 
-  void read(const YAML::Node& node, const std::string& path, Enum& value) {
+  void read(const Entry& entry, const std::string& path, Enum& value) {
     std::string expected = "one of";
     for (const auto& [candidate, word] : EnumWords<Enum>::kWords) {
-      if (node.IsScalar() && node.Scalar() == word) {
+      if (entry.value.IsScalar() && entry.value.Scalar() == word) {
         value = candidate;
         return;
       }
       expected += " " + std::string(word);
     }
-    throw source_.error(node.Mark(), number_error(node, path, expected.c_str()));
+    throw source_.error(entry.key.Mark(), wrong_type(entry.value, path, expected.c_str()));
   }
 
   YAML::Node document_;
   const Source& source_;
   std::string section_;
-  YAML::Node node_;
+  YAML::Node fields_;
   std::map<std::string, std::set<std::string>> known_;
 };
 
@@ -174,25 +184,45 @@ YAML::Node parse(const std::string& text, const Source& source) {
   }
 }
 
-}  // namespace
-
-void load_config(const std::filesystem::path& file, Config& config) {
+std::string read_text(const std::filesystem::path& file) {
   const std::ifstream stream(file);
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream || std::filesystem::is_directory(file)) {
     throw input_error(file, "cannot be read");
   }
+  return text.str();
+}
+
+/// Where the document sets the key that a message "section.key: ..." is about; nowhere if it does
+/// not.
+YAML::Mark mark_of(const YAML::Node& document, std::string_view message) {
+  const std::string_view path = message.substr(0, message.find(':'));
+  const std::size_t dot = path.find('.');
+  if (dot == std::string_view::npos) {
+    return YAML::Mark::null_mark();
+  }
+  const std::optional<Entry> section = find_entry(document, path.substr(0, dot));
+  const std::optional<Entry> entry =
+      section ? find_entry(section->value, path.substr(dot + 1)) : std::nullopt;
+  return entry ? entry->key.Mark() : YAML::Mark::null_mark();
+}
+
+}  // namespace
+
+void load_config(const std::filesystem::path& file, Config& config) {
   const Source source(file.string(), true);
+  const YAML::Node document = parse(read_text(file), source);
   Config changed = config;
   try {
-    apply(parse(text.str(), source), source, changed);
-    check(changed);
+    apply(document, source, changed);
   } catch (const YAML::Exception& error) {
     throw source.error(error.mark, error.msg);
+  }
+  try {
+    check(changed);
   } catch (const Error& error) {
-    const bool has_file = std::string_view(error.what()).starts_with(file.string());
-    throw has_file ? error : input_error(file, error.what());
+    throw source.error(mark_of(document, error.what()), error.what());
   }
   config = changed;
 }

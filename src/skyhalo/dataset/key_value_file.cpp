@@ -11,7 +11,7 @@ KeyValueFile::KeyValueFile(std::filesystem::path file) : file_(std::move(file)) 
   for (const std::string& line : read_lines(file_)) {
     ++line_number;
     const std::vector<std::string_view> words = split_words(line);
-    if (words.size() < 2) {
+    if (words.empty() || (words.size() == 1 && !words.front().ends_with(':'))) {
       continue;
     }
     std::string_view key = words.front();

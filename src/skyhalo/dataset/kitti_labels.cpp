@@ -76,6 +76,9 @@ TrackLabels::TrackLabels(const std::filesystem::path& file) {
     if (line.words.size() != kColumns && line.words.size() != kColumnsWithScore) {
       throw line.error("expected 17 columns, found " + std::to_string(line.words.size()));
     }
+    for (std::size_t column = kTypeColumn + 1; column < line.words.size(); ++column) {
+      (void)line.real_number(column);
+    }
     const int frame = line.whole_number(0);
     const int track = line.whole_number(1);
     if (frame < 0 || frame > kMaxFrame) {

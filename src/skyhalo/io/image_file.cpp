@@ -1,5 +1,8 @@
 #include "skyhalo/io/image_file.hpp"
 
+#include <zlib.h>
+
+#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
@@ -12,25 +15,62 @@
 namespace skyhalo {
 namespace {
 
-/// A decoder may return the part of a PNG that it got, so the end of the file is looked at here.
-bool is_cut_off(std::string_view bytes) {
-  constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
-  constexpr std::string_view kPngEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
-  constexpr std::string_view kJpegStart("\xFF\xD8\xFF", 3);
-  constexpr std::string_view kJpegEnd("\xFF\xD9", 2);
-  return (bytes.starts_with(kPngStart) && bytes.rfind(kPngEnd) == std::string_view::npos) ||
-         (bytes.starts_with(kJpegStart) && bytes.rfind(kJpegEnd) == std::string_view::npos);
+constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
+constexpr std::string_view kJpegStart("\xFF\xD8\xFF", 3);
+constexpr std::string_view kJpegEnd("\xFF\xD9", 2);
+
+std::uint32_t big_endian(std::string_view bytes) noexcept {
+  std::uint32_t value = 0;
+  for (const char byte : bytes) {
+    value = value << 8U | static_cast<unsigned char>(byte);
+  }
+  return value;
+}
+
+/// What is wrong with a PNG file as a container, empty if nothing: every chunk must be whole and
+/// match its check sum up to the end mark. A decoder may return the part that it got, or print on
+/// its own.
+std::string png_fault(std::string_view bytes) {
+  constexpr std::size_t kAroundData = 12;  // length, type and check sum, 4 bytes each
+  std::string_view rest = bytes.substr(kPngStart.size());
+  while (rest.size() >= kAroundData) {
+    const std::size_t length = big_endian(rest.substr(0, 4));
+    if (length > rest.size() - kAroundData) {
+      break;
+    }
+    const std::string_view checked = rest.substr(4, length + 4);
+    const auto* const data = reinterpret_cast<const Bytef*>(checked.data());
+    if (crc32(0, data, static_cast<uInt>(checked.size())) !=
+        big_endian(rest.substr(length + 8, 4))) {
+      return "is damaged: a check sum does not match";
+    }
+    if (checked.starts_with("IEND")) {
+      return "";
+    }
+    rest.remove_prefix(length + kAroundData);
+  }
+  return "is cut off: the end of the image is missing";
+}
+
+std::string fault_of(std::string_view bytes) {
+  if (bytes.empty()) {
+    return "is empty, expected an image";
+  }
+  if (bytes.starts_with(kPngStart)) {
+    return png_fault(bytes);
+  }
+  if (bytes.starts_with(kJpegStart) && bytes.rfind(kJpegEnd) == std::string_view::npos) {
+    return "is cut off: the end of the image is missing";
+  }
+  return "";
 }
 
 }  // namespace
 
 cv::Mat read_image(const std::filesystem::path& file) {
   const std::string bytes = read_bytes(file);
-  if (bytes.empty()) {
-    throw input_error(file, "is empty, expected an image");
-  }
-  if (is_cut_off(bytes)) {
-    throw input_error(file, "is cut off: the end of the image is missing");
+  if (const std::string fault = fault_of(bytes); !fault.empty()) {
+    throw input_error(file, fault);
   }
   const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
   cv::Mat image;

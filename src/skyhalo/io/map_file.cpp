@@ -36,6 +36,9 @@ std::vector<ColouredPoint> occupied_points(const DenseMap& map, double occupied_
 void write_octree(const std::filesystem::path& file, const DenseMap& map) {
   const VoxelGrid& grid = map.grid();
   octomap::OcTree tree(grid.voxel_m);
+  // The map has its own limits; the octree must not add tighter ones.
+  tree.setClampingThresMin(0.0);
+  tree.setClampingThresMax(1.0);
   for (std::int64_t offset = 0; const LogOdds cell : map.cells()) {
     if (cell != kUnknown) {
       const Eigen::Vector3d center_m = grid.center_m(grid.cell_at(offset));

@@ -46,6 +46,8 @@ OutputFolder::OutputFolder(fs::path folder)
   std::error_code status;
   fs::create_directories(staging_, status);
   if (status) {
+    std::error_code ignored;
+    fs::remove_all(created_.empty() ? staging_ : created_, ignored);
     throw cannot_write(folder_, status);
   }
 }

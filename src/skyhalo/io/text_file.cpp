@@ -53,7 +53,7 @@ std::vector<std::string_view> split_words(std::string_view line) {
 }
 
 std::optional<double> parse_number(std::string_view word) noexcept {
-  if (word.starts_with('+')) {
+  if (word.starts_with('+') && !word.starts_with("+-")) {
     word.remove_prefix(1);
   }
   double value = 0.0;

@@ -21,7 +21,8 @@ struct RayInterval {
   double leave_m = std::numeric_limits<double>::infinity();
 };
 
-/// Clips a ray to the box of a grid (slab test); a ray that misses gives an empty interval.
+/// Clips a ray to the box of a grid (slab test); a ray that misses, or has a NaN,
+/// gives an empty interval.
 [[nodiscard]] inline RayInterval clip(const Ray& ray, const VoxelGrid& grid) noexcept {
   RayInterval inside;
   const Eigen::Vector3d max_m = grid.max_m();
@@ -29,13 +30,16 @@ struct RayInterval {
     const double to_min_m = grid.min_m[axis] - ray.origin_m[axis];
     const double to_max_m = max_m[axis] - ray.origin_m[axis];
     if (ray.direction[axis] == 0.0) {
-      if (to_min_m > 0.0 || to_max_m <= 0.0) {
+      if (!(to_min_m <= 0.0 && to_max_m > 0.0)) {  // NaN lies outside too
         return {0.0, 0.0};
       }
       continue;
     }
     const double first = to_min_m / ray.direction[axis];
     const double second = to_max_m / ray.direction[axis];
+    if (std::isnan(first) || std::isnan(second)) {
+      return {0.0, 0.0};
+    }
     inside.enter_m = std::max(inside.enter_m, std::min(first, second));
     inside.leave_m = std::min(inside.leave_m, std::max(first, second));
   }

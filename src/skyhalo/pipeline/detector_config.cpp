@@ -4,6 +4,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/map/log_odds.hpp"
 
 namespace skyhalo {
 namespace {
@@ -29,14 +30,15 @@ void check(const DetectorConfig& config) {
           "matching.downscale",
           "a whole number in 1...16");
   require(config.matching.rcrop_px >= 0, "matching.rcrop_px", "a number of pixels >= 0");
+  check(config.matching.matcher);
   require(
       not_negative(config.sphere.sigma_threshold_m), "sphere.sigma_threshold_m", "a length >= 0 m");
   require(not_negative(config.sphere.sigma_factor), "sphere.sigma_factor", "a number >= 0");
   require(positive(config.sphere.max_range_m), "sphere.max_range_m", "a length above 0 m");
   require(positive(config.map.voxel_m), "map.voxel_m", "a length above 0 m");
-  require(config.map.log_odds_limit > 0.0 && config.map.log_odds_limit <= 32.0,
+  require(config.map.log_odds_limit >= kLogOddsPerUnit && config.map.log_odds_limit <= 32.0,
           "map.log_odds_limit",
-          "a number in (0, 32]");
+          "a number in 0.001...32");
   check(config.sensor_model);
   (void)make_grid_geometry(config.sphere.bounds);
 }

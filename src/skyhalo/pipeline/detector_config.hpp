@@ -9,7 +9,7 @@ namespace skyhalo {
 
 /// From raw images to a cleaned disparity image (thesis 5.1, 5.2).
 struct MatchingConfig {
-  int downscale = 2;  ///< whole factor by which images are shrunk before matching, >= 1
+  int downscale = 2;  ///< whole factor by which images are shrunk before matching, 1...16
   int rcrop_px =
       64;  ///< right-most columns of the matched image that are discarded (eq. 5.1), >= 0
   MatcherConfig matcher;
@@ -31,7 +31,7 @@ struct SphereConfig {
 /// The occupancy map (thesis 6 and 7.1).
 struct MapConfig {
   double voxel_m = 0.5;         ///< edge of a cell, > 0
-  double log_odds_limit = 5.0;  ///< log odds are kept within +- this, in (0, 32]
+  double log_odds_limit = 5.0;  ///< log odds are kept within +- this, in [0.001, 32]
 };
 
 /// Everything that `ObstacleDetector` can be told.

@@ -24,7 +24,7 @@ enum class Stage { kRectify, kMatch, kSphere, kMap };
 
 /// Is told when a stage begins and ends, so that an application can hold its own clock to it; the
 /// library has none. Pairs run in parallel: calls come from several threads, each stage of one pair
-/// begins and ends on the same thread.
+/// begins and ends on the same thread. A stage that throws has no end.
 class StageObserver {
  public:
   StageObserver() = default;

@@ -28,9 +28,9 @@ double width_behind(double a, double p_free, double delta_z_m) noexcept {
 void check(const SensorModelConfig& config) {
   require(config.k > 0.0 && config.k < 1.0, "k", "a number in (0, 1)");
   require(config.p_free > 0.0 && config.p_free <= 0.5, "p_free", "a probability in (0, 0.5]");
-  require(config.p_unknown >= config.p_free && config.p_unknown < 1.0,
+  require(config.p_unknown > config.p_free && config.p_unknown < 1.0,
           "p_unknown",
-          "a probability in [p_free, 1)");
+          "a probability in (p_free, 1)");
   require(config.delta_d_px > 0.0 && std::isfinite(config.delta_d_px),
           "delta_d_px",
           "a number of pixels above 0");

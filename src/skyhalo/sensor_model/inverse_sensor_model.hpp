@@ -35,6 +35,9 @@ class InverseSensorModel {
 
   [[nodiscard]] double z_m() const noexcept { return z_m_; }
 
+  /// Probability of a cell that the measurement says nothing of.
+  [[nodiscard]] double p_unknown() const noexcept { return p_unknown_; }
+
   /// Probability that a map cell at distance m_m > 0 along the ray is occupied.
   [[nodiscard]] double probability(double m_m) const noexcept {
     if (m_m <= z_m_) {

@@ -19,7 +19,7 @@ int ceil_div(int a, int b) noexcept {
 }  // namespace
 
 void discard_right_columns(cv::Mat1f& disparity, int rcrop_px) noexcept {
-  const int first = std::clamp(disparity.cols - rcrop_px, 0, disparity.cols);
+  const int first = disparity.cols - std::clamp(rcrop_px, 0, disparity.cols);
   for (int v = 0; v < disparity.rows; ++v) {
     float* row = disparity[v];
     std::fill(row + first, row + disparity.cols, kNone);
@@ -29,6 +29,9 @@ void discard_right_columns(cv::Mat1f& disparity, int rcrop_px) noexcept {
 void discard_rectangles(cv::Mat1f& disparity, std::span<const cv::Rect> masks_px, int downscale) {
   const cv::Rect image(0, 0, disparity.cols, disparity.rows);
   for (const cv::Rect& mask : masks_px) {
+    if (mask.empty()) {
+      continue;
+    }
     const cv::Point from(floor_div(mask.x, downscale), floor_div(mask.y, downscale));
     const cv::Point to(ceil_div(mask.x + mask.width, downscale),
                        ceil_div(mask.y + mask.height, downscale));

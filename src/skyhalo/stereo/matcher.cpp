@@ -13,7 +13,9 @@ void require(bool holds, const char* key, const char* expected) {
   }
 }
 
-const MatcherConfig& checked(const MatcherConfig& config) {
+}  // namespace
+
+void check(const MatcherConfig& config) {
   const int d = config.max_disparity_px;
   require(d >= 16 && d <= 256 && d % 16 == 0, "max_disparity_px", "a multiple of 16 in 16...256");
   require(config.block_px >= 1 && config.block_px <= 11 && config.block_px % 2 == 1,
@@ -26,12 +28,9 @@ const MatcherConfig& checked(const MatcherConfig& config) {
   require(config.left_right_px >= 1, "left_right_px", "a number of pixels >= 1");
   require(config.speckle_size_px >= 0, "speckle_size_px", "a number >= 0");
   require(config.speckle_range_px >= 0, "speckle_range_px", "a number >= 0");
-  return config;
 }
 
-}  // namespace
-
-Matcher::Matcher(const MatcherConfig& config) : engine_(OpencvSgbm(checked(config))) {}
+Matcher::Matcher(const MatcherConfig& config) : engine_((check(config), OpencvSgbm(config))) {}
 
 void Matcher::match(const cv::Mat1b& left, const cv::Mat1b& right, cv::Mat1f& disparity) {
   std::visit([&](auto& engine) { engine.match(left, right, disparity); }, engine_);

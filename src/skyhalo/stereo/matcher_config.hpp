@@ -19,4 +19,7 @@ struct MatcherConfig {
   int speckle_range_px = 2;     ///< a step that parts islands
 };
 
+/// Throws `Error` (input) naming the key when a setting is outside its domain.
+void check(const MatcherConfig& config);
+
 }  // namespace skyhalo

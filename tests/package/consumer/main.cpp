@@ -1,5 +1,5 @@
-// Uses one piece of each kind of the installed library: a header with code, a compiled function, YAML,
-// TBB and OctoMap behind it.
+// Uses one piece of each kind of the installed library: a header with code, a compiled function,
+// YAML, TBB and OctoMap behind it.
 
 #include <cstdio>
 #include <skyhalo/base/version.hpp>
@@ -16,7 +16,9 @@ int main() {
   skyhalo::StereoRig rig;
   rig.pairs.push_back({.name = "front", .image_size_px = {64, 32}, .model = {30, 32, 16, 0.1}});
   const skyhalo::ObstacleDetector detector(rig, config.detector, map.grid());
-  std::printf("skyhalo %s: %zu occupied cell, %zu bytes of settings\n", skyhalo::kVersion,
-              skyhalo::occupied_points(map, 0.7).size(), to_yaml(config).size());
+  std::printf("skyhalo %s: %zu occupied cell, %zu bytes of settings\n",
+              skyhalo::kVersion,
+              skyhalo::occupied_points(map, 0.7).size(),
+              to_yaml(config).size());
   return detector.map().cells().size() == map.cells().size() ? 0 : 1;
 }
