@@ -120,6 +120,11 @@ TEST(YamlTest, AWrongTypeIsRefused) {
                   {"sphere: [step_deg]\n", 1, "sphere"}});
 }
 
+TEST(YamlTest, AKeyGivenTwiceIsRefused) {
+  expect_refused({{"map:\n  voxel_m: 0.5\n  voxel_m: 0.4\n", 3, "map.voxel_m"},
+                  {"map:\n  voxel_m: 0.5\nmap:\n  voxel_m: 0.4\n", 3, "map"}});
+}
+
 TEST(YamlTest, AKeyWithoutAValueIsRefused) {
   expect_refused({{"map:\n  voxel_m:\n  log_odds_limit: 5\n", 2, "map.voxel_m"},
                   {"map:\n  voxel_m:\n", 2, "map.voxel_m"}});

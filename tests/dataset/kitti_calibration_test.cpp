@@ -186,6 +186,8 @@ TEST(KittiCalibrationTest, APairWithoutPositiveFocalLengthAndBaselineIsRefused) 
         "P_rect_01"},
        {&Files::cameras, name, "256 0 160 0 0 256", "-256 0 160 0 0 -256", ":3:", "P_rect_00"},
        {&Files::cameras, name, "256 0 160 0 0 256", "0 0 160 0 0 0", ":3:", "P_rect_00"},
+       // Rows that do not lie level make no rectified pair.
+       {&Files::cameras, name, "160 -128 0 256 48", "160 -128 0 256 49", ":4:", "P_rect_01"},
        // Two focal lengths make no rectified pair.
        {&Files::cameras,
         name,

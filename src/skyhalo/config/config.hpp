@@ -51,7 +51,8 @@ struct Config {
 /// their domain.
 void load_config(const std::filesystem::path& file, Config& config);
 
-/// Sets one value from `section.key=value`. Throws `Error` (input) as `load_config` does.
+/// Sets one value from `section.key=value`. Throws `Error` (input) for unknown keys and wrong
+/// types. Domains are for `check` to judge when all values are set, as some depend on each other.
 void set_value(std::string_view assignment, Config& config);
 
 /// Throws `Error` (input) naming the key when a setting is outside its domain.

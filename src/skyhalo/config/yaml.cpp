@@ -79,6 +79,7 @@ class Loader {
 
   /// Throws for the first key of the document that no field has.
   void refuse_unknown_keys() const {
+    std::set<std::string> sections_seen;
     for (const auto& section : document_) {
       const auto name = section.first.as<std::string>();
       const auto known = known_.find(name);
@@ -86,13 +87,24 @@ class Loader {
         throw source_.error(section.first.Mark(),
                             name + ": unknown section; known are " + sections());
       }
+      refuse_repeated(section.first, name, sections_seen);
+      std::set<std::string> keys_seen;
       for (const auto& entry : section.second) {
         refuse_unknown_key(entry.first, name, known->second);
+        refuse_repeated(entry.first, name + "." + entry.first.Scalar(), keys_seen);
       }
     }
   }
 
  private:
+  void refuse_repeated(const YAML::Node& key,
+                       const std::string& path,
+                       std::set<std::string>& seen) const {
+    if (!seen.insert(path).second) {
+      throw source_.error(key.Mark(), path + ": is given twice");
+    }
+  }
+
   void refuse_unknown_key(const YAML::Node& key,
                           const std::string& section,
                           const std::set<std::string>& known) const {

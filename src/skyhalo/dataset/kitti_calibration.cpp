@@ -62,6 +62,9 @@ KittiCalibration read_kitti_raw_calibration(const std::filesystem::path& day_fol
   if (!(baseline_m > 0.0)) {
     throw cameras.error(right_key, "the right camera is not to the right of the left one");
   }
+  if (left.principal_v_px != right.principal_v_px) {
+    throw cameras.error(right_key, "the principal point's row differs from the left camera's");
+  }
   if (left.focal_px != right.focal_px) {
     throw cameras.error(right_key, "the focal length differs from the left camera's");
   }

@@ -24,8 +24,8 @@ int digits(std::string_view text, std::size_t from, std::size_t length) noexcept
 
 std::optional<Timestamp> parse_timestamp(std::string_view text) noexcept {
   constexpr std::string_view kShape = "YYYY-MM-DD HH:MM:SS";
-  if (text.size() < kShape.size() || text[4] != '-' || text[7] != '-' || text[13] != ':' ||
-      text[16] != ':') {
+  if (text.size() < kShape.size() || text[4] != '-' || text[7] != '-' || text[10] != ' ' ||
+      digits(text, 17, 2) < 0 || text[13] != ':' || text[16] != ':') {
     return std::nullopt;
   }
   const int hour = digits(text, 11, 2);
