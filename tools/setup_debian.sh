@@ -51,15 +51,16 @@ fetch_demo_images() {
   require_root "$demo_images"
   echo "setup: fetching the demo's images, which this system's dpkg leaves out"
   folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT
+  $as_root apt-get update -qq
   (cd "$folder" && chmod 755 . && apt-get download -qq opencv-doc &&
-    dpkg-deb --fsys-tarfile opencv-doc_*.deb | $as_root tar -x -C / ./${demo_images#/})
-  rm -rf "$folder"
+    dpkg-deb --fsys-tarfile opencv-doc_*.deb >data.tar && $as_root tar -x -f data.tar -C / "./${demo_images#/}")
 }
 
 missing=
 for package in $wanted; do
   state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
-  [ "$state" = installed ] || missing="$missing $package"
+  case $state in installed*) ;; *) missing="$missing $package" ;; esac
 done
 if [ -z "$missing" ]; then
   fetch_demo_images

@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 #include <optional>
 
+#include "skyhalo/base/error.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo::app {
@@ -64,7 +65,14 @@ void print_result(const CommonOptions& options,
   if (options.json) {
     std::cout << summary.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
+  flush_stdout();
+}
+
+void flush_stdout() {
   std::cout.flush();
+  if (!std::cout) {
+    throw Error(ErrorKind::kFailure, "stdout: cannot be written");
+  }
 }
 
 void print_note(const CommonOptions& options, const std::string& text) {

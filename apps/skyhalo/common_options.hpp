@@ -52,6 +52,9 @@ void print_result(const CommonOptions& options,
                   const nlohmann::json& summary);
 void print_note(const CommonOptions& options, const std::string& text);
 
+/// Throws `Error` (failure) when what was printed did not arrive.
+void flush_stdout();
+
 /// Frames FIRST to LAST, both included.
 struct FrameRange {
   int first = 0;

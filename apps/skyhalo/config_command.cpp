@@ -24,6 +24,7 @@ void add_config(CLI::App& program) {
   command->callback([options] {
     const Config config = load_config(options->common);
     std::cout << (options->markdown ? to_markdown(config) : to_yaml(config));
+    flush_stdout();
   });
 }
 

@@ -68,7 +68,7 @@ cv::Mat3b colour(const cv::Mat& image) {
 nlohmann::json summarise(const PairPerception& seen,
                          const DenseMap& map,
                          double occupied_probability) {
-  return {{"frames", 1},
+  return {{"frame_sets", 1},
           {"density",
            static_cast<double>(seen.pixels.measured) / static_cast<double>(seen.disparity.total())},
           {"grid_cells", seen.grid.geometry().cell_count()},
@@ -83,8 +83,8 @@ void demo(const DemoOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ImagePairSource source(options.left, options.right, aloe_pair());
   OutputFolder out(options.out);
-  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.0, -0.6, -0.4),
-                                   Eigen::Vector3d(2.4, 0.6, 0.4));
+  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(0.9, -0.4, -0.4),
+                                   Eigen::Vector3d(2.1, 0.4, 0.4));
   ObstacleDetector detector(
       source.rig(), config.detector, make_voxel_grid(bounds, config.detector.map.voxel_m));
   const FrameSet frames = source.read(0);
@@ -100,8 +100,7 @@ void demo(const DemoOptions& options) {
       {"right image", colour(frames.pairs.front().right)},
       {"disparity (bright is near)", disparity_picture(seen.disparity)},
       {"spherical grid, unrolled (bright is near)", grid_picture(seen.grid, seen.depth, 8)},
-      {"map slice at eye height, camera left, black is occupied",
-       slice_picture(detector.map(), 0.0, 4)}};
+      {"map slice from above (black is occupied)", slice_picture(detector.map(), 0.0, 4)}};
   write_png(out.file("overview.png"), contact_sheet(pictures, 2, 480));
   write_ply(out.file("map.ply"), occupied_points(detector.map(), p_occupied));
   write_bytes(out.file("summary.json"), summary.dump(2) + "\n");
@@ -122,7 +121,8 @@ void add_demo(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "demo",
       "the whole way on one real stereo pair: disparity, spherical grid, map\n"
-      "writes overview.png, map.ply and summary.json");
+      "writes overview.png, map.ply and summary.json\n"
+      "It has settings of its own, for a table top in close-up; --config replaces them.");
   command->add_option("--left", options->left, "left image of the Aloe pair (Debian: opencv-doc)")
       ->type_name("FILE")
       ->capture_default_str();

@@ -1,17 +1,21 @@
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "evaluation_run.hpp"
+#include "interrupt.hpp"
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/version.hpp"
 #include "skyhalo/dataset/drive_bounds.hpp"
 #include "skyhalo/dataset/kitti_labels.hpp"
 #include "skyhalo/evaluation/comparison_picture.hpp"
 #include "skyhalo/evaluation/report.hpp"
+#include "skyhalo/io/image_file.hpp"
 #include "skyhalo/io/map_file.hpp"
 #include "skyhalo/io/output_folder.hpp"
 #include "skyhalo/io/picture.hpp"
@@ -60,6 +64,9 @@ TrackLabels read_labels(const EvaluateOptions& options, const Config& config, in
   }
   TrackLabels labels(options.labels);
   const int last = labels.last_frame();
+  if (last < 0) {
+    throw input_error(options.labels, "holds no label");
+  }
   const std::string has = "the labels end with frame " + std::to_string(last) +
                           ", the drive with frame " + std::to_string(frame_count - 1);
   if (last >= frame_count) {
@@ -87,15 +94,33 @@ std::string sequence_name(const EvaluateOptions& options, const FrameSource& sou
   return four_digits ? last : source.name();
 }
 
-std::string png_bytes(const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {bytes.begin(), bytes.end()};
+/// A picture for the page; one that is too large for a page is shrunk.
+std::string png_bytes(cv::Mat picture) {
+  constexpr int kLargestPx = 4000;
+  if (std::max(picture.cols, picture.rows) > kLargestPx) {
+    const cv::Size size(std::min(picture.cols, kLargestPx), std::min(picture.rows, kLargestPx));
+    cv::resize(picture, picture, size, 0.0, 0.0, cv::INTER_AREA);
+  }
+  return encode_png(picture);
+}
+
+/// Fails where there is nothing to score against.
+void check_truth(const Evaluation& evaluation, const FrameRange& range) {
+  if (static_cast<int>(evaluation.skipped_scans.size()) > range.last - range.first) {
+    throw Error(
+        ErrorKind::kInput,
+        "none of the frames has a laser scan (velodyne_points/data); there is no ground truth");
+  }
+  const auto observed = evaluation.truth.observed();
+  if (std::all_of(observed.begin(), observed.end(), [](std::uint8_t cell) { return cell == 0; })) {
+    throw Error(ErrorKind::kInput,
+                "no laser ray passes through the map's bounds; there is no ground truth");
+  }
 }
 
 std::vector<ReportPicture> pictures(const Evaluation& evaluation, double occupied_probability) {
   // About a thousand pixels wide, whatever the map's size.
-  const int cell_px = std::clamp(1000 / evaluation.truth.grid().size.x(), 1, 8);
+  const int cell_px = std::clamp(1000 / evaluation.truth.grid().size.head<2>().maxCoeff(), 1, 8);
   const DenseMap& map = evaluation.detector.map();
   return {{"Ground truth from above",
            "Colour: height, dark is low. x (forward) to the right, y up.",
@@ -148,6 +173,7 @@ void evaluate(const EvaluateOptions& options) {
 
   Evaluation evaluation{GroundTruth(grid), ObstacleDetector(drive->rig(), config.detector, grid)};
   build_truth(*drive, labels, config.evaluation, {range, options.common.quiet}, evaluation);
+  check_truth(evaluation, range);
   map_and_score(*drive, config.evaluation, {range, options.common.quiet}, evaluation);
 
   EvaluationResult result{
@@ -161,10 +187,15 @@ void evaluate(const EvaluateOptions& options) {
       .rows = evaluation.rows,
       .stages = evaluation.clock.times(),
       .pictures = pictures(evaluation, config.evaluation.occupied_probability),
-      .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      .labelled = !options.labels.empty(),
+      .duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       .config_yaml = to_yaml(config)};
   write_files(out, evaluation, result, config.evaluation.occupied_probability);
+  stop_if_interrupted();
   out.commit();
+  if (options.labels.empty()) {
+    print_note(options.common, "no --labels: what moves is taken for ground truth too");
+  }
   note_skipped(options.common, evaluation.skipped_scans);
   print_result(
       options.common,

@@ -11,12 +11,18 @@ int frame_count(const FrameRange& range) {
   return range.last - range.first + 1;
 }
 
-/// The cells that one frame's scan marks; none without a scan.
-std::optional<std::vector<std::int64_t>> truth_cells(const KittiRawDrive& drive,
-                                                     const TrackLabels& labels,
-                                                     double max_range_m,
-                                                     const VoxelGrid& grid,
-                                                     int frame) {
+/// What one scan says of the map's cells.
+struct ScanCells {
+  std::vector<std::int64_t> occupied;
+  std::vector<std::uint8_t> observed;
+};
+
+/// None without a scan.
+std::optional<ScanCells> truth_cells(const KittiRawDrive& drive,
+                                     const TrackLabels& labels,
+                                     double max_range_m,
+                                     const VoxelGrid& grid,
+                                     int frame) {
   const std::optional<LaserScan> scan = drive.read_scan(frame);
   if (!scan) {
     return std::nullopt;
@@ -29,7 +35,7 @@ std::optional<std::vector<std::int64_t>> truth_cells(const KittiRawDrive& drive,
                        drive.T_annotation_laser(),
                        drive.T_map_body(frame) * drive.T_body_laser(),
                        max_range_m};
-  return occupied_cells(*scan, view, boxes, grid);
+  return ScanCells{occupied_cells(*scan, view, boxes, grid), observed_cells(*scan, view, grid)};
 }
 
 }  // namespace
@@ -46,9 +52,10 @@ void build_truth(const KittiRawDrive& drive,
       [&](int frame) {
         return truth_cells(drive, labels, config.max_range_m, evaluation.truth.grid(), frame);
       },
-      [&](int frame, const std::optional<std::vector<std::int64_t>>& cells) {
+      [&](int frame, const std::optional<ScanCells>& cells) {
         if (cells) {
-          evaluation.truth.mark(*cells);
+          evaluation.truth.mark(cells->occupied);
+          evaluation.truth.mark_observed(cells->observed);
         } else {
           evaluation.skipped_scans.push_back(frame);
         }
@@ -66,10 +73,12 @@ void map_and_score(const KittiRawDrive& drive,
       [&](int frame) { return drive.read(frame); },
       [&](int frame, const FrameSet& frames) {
         evaluation.detector.process(frames, drive.T_map_body(frame), &evaluation.clock);
+        const auto cells = evaluation.detector.map().cells();
+        const GroundTruth& truth = evaluation.truth;
+        const double p_occupied = config.occupied_probability;
         evaluation.rows.push_back({frame,
-                                   score(evaluation.detector.map().cells(),
-                                         evaluation.truth.occupied(),
-                                         config.occupied_probability)});
+                                   score(cells, truth.occupied(), p_occupied),
+                                   score(cells, truth.occupied(), p_occupied, truth.observed())});
       });
 }
 

@@ -9,8 +9,10 @@ namespace {
 
 volatile std::sig_atomic_t stop_asked = 0;
 
-void ask_to_stop(int) {
+/// The second time the signal does what it always does.
+void ask_to_stop(int signal) {
   stop_asked = 1;
+  std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
@@ -18,6 +20,7 @@ void ask_to_stop(int) {
 void catch_interrupts() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  std::signal(SIGHUP, ask_to_stop);
 }
 
 void stop_if_interrupted() {

@@ -29,7 +29,7 @@ struct RunOptions {
 /// What a run leaves behind besides the map.
 struct RunRecord {
   std::vector<StampedPose> trajectory;
-  double seconds = 0.0;
+  double duration_s = 0.0;
 };
 
 RunRecord run_frames(const FrameSource& source,
@@ -48,7 +48,8 @@ RunRecord run_frames(const FrameSource& source,
         detector.process(frames, T_map_body, &clock);
         record.trajectory.push_back({frames.stamp, T_map_body});
       });
-  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.duration_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }
 
@@ -82,19 +83,21 @@ void run(const RunOptions& options) {
     record = run_frames(*source, range, detector, bar, clock);
   }
   const auto frames = static_cast<double>(record.trajectory.size());
-  const nlohmann::json summary = {{"source", source->name()},
-                                  {"map", options.map},
-                                  {"frames", record.trajectory.size()},
-                                  {"dropped", 0},
-                                  {"seconds", record.seconds},
-                                  {"frames_per_second", frames / record.seconds},
-                                  {"stages", stages_json(clock.times())},
-                                  {"out", options.out}};
+  const nlohmann::json summary = {
+      {"source", source->name()},
+      {"map", options.map},
+      {"frames", record.trajectory.size()},
+      {"dropped", range.last - range.first + 1 - static_cast<int>(record.trajectory.size())},
+      {"seconds", record.duration_s},
+      {"frames_per_second", frames / record.duration_s},
+      {"stages", stages_json(clock.times())},
+      {"out", options.out}};
   write_ply(out.file("map.ply"),
             occupied_points(detector.map(), config.evaluation.occupied_probability));
   write_octree(out.file("map.ot"), detector.map());
   write_tum(out.file("trajectory.tum"), record.trajectory);
   write_bytes(out.file("summary.json"), summary.dump(2) + "\n");
+  stop_if_interrupted();
   out.commit();
   print_result(options.common, describe(summary, clock.times()), summary);
 }

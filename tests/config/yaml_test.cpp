@@ -116,6 +116,9 @@ TEST(YamlTest, AWrongTypeIsRefused) {
                   {"sphere:\n  step_deg: {a: 1}\n", 2, "sphere.step_deg"},
                   {"evaluation:\n  labels_may_end_early: 2\n", 2, "labels_may_end_early"},
                   {"dataset:\n  cameras: left\n", 2, "dataset.cameras"},
+                  {"matching:\n  masks_px: [1, 2, 3, 4]\n", 2, "matching.masks_px"},
+                  {"matching:\n  masks_px: [[1, 2, 3]]\n", 2, "matching.masks_px"},
+                  {"matching:\n  masks_px: [[1, 2, 3, 0]]\n", 2, "matching.masks_px"},
                   {"sphere: 3\n", 1, "sphere"},
                   {"sphere: [step_deg]\n", 1, "sphere"}});
 }

@@ -90,6 +90,25 @@ TEST(GroundTruthTest, APointMarksItsCellInTheMap) {
               ElementsAre(3));
 }
 
+TEST(GroundTruthTest, ARayObservesTheCellsOnItsWayAndItsEnd) {
+  // From the map's x = 1 to x = 3.5.
+  EXPECT_THAT(observed_cells({{2.5F, 0.0F, 0.0F}}, simple_view(), row_of_cells()),
+              ElementsAre(0, 1, 1, 1, 0, 0, 0, 0, 0, 0));
+}
+
+TEST(GroundTruthTest, ARayIsFollowedUpToTheRange) {
+  TruthView view = simple_view();
+  view.max_range_m = 4.5;  // to the map's x = 5.5, though the point is at 21
+  EXPECT_THAT(observed_cells({{20.0F, 0.0F, 0.0F}}, view, row_of_cells()),
+              ElementsAre(0, 1, 1, 1, 1, 1, 0, 0, 0, 0));
+}
+
+TEST(GroundTruthTest, ARayOutsideTheImageObservesNothing) {
+  EXPECT_THAT(
+      observed_cells({{-2.5F, 0.0F, 0.0F}, {1.0F, 5.0F, 0.0F}}, simple_view(), row_of_cells()),
+      ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 0, 0));
+}
+
 TEST(GroundTruthTest, CellsAreSortedAndEachComesOnce) {
   const LaserScan scan{{5.5F, 0.0F, 0.0F},
                        {2.5F, 0.0F, 0.0F},

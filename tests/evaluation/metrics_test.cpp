@@ -52,6 +52,18 @@ TEST(MetricsTest, CountsEachCellOnce) {
   EXPECT_EQ(m.tn, 22);  // 27 - 2 - 1 - 2
 }
 
+TEST(MetricsTest, OnlyCountedCellsEnter) {
+  const Case c = worked_case();
+  std::vector<std::uint8_t> counted(27, 0);
+  counted[0] = counted[1] = counted[2] = counted[3] = 1;
+  const Metrics m = score(c.map, c.truth, 0.7, counted);
+  EXPECT_EQ(m.tp, 2);
+  EXPECT_EQ(m.fp, 1);
+  EXPECT_EQ(m.fn, 1);  // cell 20 is missed too, but not counted
+  EXPECT_EQ(m.tn, 0);
+  EXPECT_DOUBLE_EQ(m.accuracy, 0.5);
+}
+
 TEST(MetricsTest, RatiosFollowFromTheCounts) {
   const Metrics m = score_of(worked_case());
   EXPECT_DOUBLE_EQ(m.accuracy, 24.0 / 27.0);

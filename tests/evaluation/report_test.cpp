@@ -37,7 +37,7 @@ EvaluationResult some_result() {
       {8, {6, 2, 629, 3, 0.9921875, 0.75, 0.6666667, 0.9968304, 0.9952532, 0.061, 0.703}}};
   result.stages = {{"match", 12.5, 20.25}};
   result.pictures = {{"From above", "x to the right", "\x89PNG"}};
-  result.seconds = 1.5;
+  result.duration_s = 1.5;
   result.config_yaml = "map:\n  voxel_m: 0.5\n";
   return result;
 }
@@ -109,22 +109,23 @@ TEST(ReportTest, WithoutFramesTheCsvIsItsHeader) {
 
 TEST(ReportTest, TheTableHasTheLastRowInTheColumnsOfTheThesis) {
   const auto lines = lines_of(metrics_table(some_result()));
-  ASSERT_THAT(lines, SizeIs(3));  // the thesis prints no sequence 0042
+  ASSERT_THAT(lines, SizeIs(4));  // the thesis prints no sequence 0042
   EXPECT_EQ(lines[0],
             "| seq | TP | FP | TN | FN | accuracy | precision | recall | specificity | npv | error "
             "| correlation |");
   EXPECT_EQ(lines[2],
             "| 0042 | 6 | 2 | 629 | 3 | 0.992 | 0.750 | 0.667 | 0.997 | 0.995 | 0.061 | 0.703 |");
+  EXPECT_THAT(lines[3], HasSubstr("| 0042, observed cells |"));
 }
 
 TEST(ReportTest, TheTableHasTheThesisRowWhereThereIsOne) {
   EvaluationResult result = some_result();
   result.sequence = "0003";
   const auto lines = lines_of(metrics_table(result));
-  ASSERT_THAT(lines, SizeIs(4));
+  ASSERT_THAT(lines, SizeIs(5));
   EXPECT_THAT(lines[2], HasSubstr("| 6 | 2 | 629 | 3 |"));
-  EXPECT_THAT(lines[3], HasSubstr("thesis"));
-  EXPECT_THAT(lines[3],
+  EXPECT_THAT(lines[4], HasSubstr("thesis"));
+  EXPECT_THAT(lines[4],
               HasSubstr("| 17995 | 5544 | 843943 | 12518 | 0.979 | 0.764 | 0.590 | 0.993 "
                         "| 0.985 | 0.084 | 0.534 |"));
 }

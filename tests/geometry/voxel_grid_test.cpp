@@ -46,6 +46,10 @@ TEST(VoxelGridTest, ALengthThatIsNoWholeNumberOfVoxelsGrows) {
   EXPECT_EQ(make_voxel_grid(box({0, 0, 0}, {1, 1, 1}), 0.3).size, Eigen::Vector3i(4, 4, 4));
 }
 
+TEST(VoxelGridTest, AVoxelLargerThanTheBoundsIsOneCell) {
+  EXPECT_EQ(make_voxel_grid(box({0, 0, 0}, {1, 1, 1}), 1e9).size, Eigen::Vector3i(1, 1, 1));
+}
+
 TEST(VoxelGridTest, RefusesBoundsThatAreNone) {
   EXPECT_THAT(message_of([] {
                 (void)make_voxel_grid(box({0, 5, 0}, {1, -5, 1}), 0.5);

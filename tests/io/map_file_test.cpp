@@ -118,6 +118,20 @@ TEST(MapFileTest, CellsGoToTheOctreeCellThatHoldsTheirCentre) {
   EXPECT_EQ(tree->search(0.45, 0.75, 0.75), nullptr);
 }
 
+TEST(MapFileTest, AMapOffTheLatticeLosesNoCell) {
+  // The corner lies half a cell off the octree's lattice, where centres fall on the faces of its
+  // cells.
+  DenseMap map(grid_of({0.05, 0.05, 0.05}, {8, 8, 8}, 0.1));
+  for (std::int64_t offset = 0; offset < map.grid().cell_count(); ++offset) {
+    map.at(offset) = static_cast<LogOdds>(offset);  // all different, so that nothing is pruned
+  }
+  const TempFolder folder;
+  write_octree(folder.path() / "map.ot", map);
+  const auto tree = read_octree(folder.path() / "map.ot");
+  ASSERT_NE(tree, nullptr);
+  EXPECT_EQ(tree->getNumLeafNodes(), 512U);
+}
+
 TEST(MapFileTest, AnEmptyMapIsAValidFile) {
   expect_same_cells(DenseMap(grid_of({0.0, 0.0, 0.0}, {2, 2, 2}, 0.5)));
 }

@@ -84,6 +84,16 @@ TEST(OutputFolderTest, WithoutACommitAFolderItCreatedGoesAway) {
   EXPECT_TRUE(fs::exists(folder.path()));
 }
 
+TEST(OutputFolderTest, WhatOthersPutBesideItStays) {
+  const TempFolder folder;
+  {
+    const OutputFolder out(folder.path() / "new" / "mine");
+    (void)folder.write("new/theirs/map.ply", "whole");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "new/mine"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "new/theirs/map.ply"));
+}
+
 TEST(OutputFolderTest, ATrailingSlashChangesNothing) {
   const TempFolder folder;
   {

@@ -17,6 +17,7 @@ inline std::vector<ConfigKey> config_keys() {
           {"matching.downscale", "4"},
           {"matching.max_disparity_px", "128"},
           {"matching.rcrop_px", "32"},
+          {"matching.masks_px", "[[0, 0, 40, 30], [600, 340, 20, 10]]"},
           {"matching.block_px", "5"},
           {"matching.paths", "8"},
           {"matching.uniqueness_percent", "7"},

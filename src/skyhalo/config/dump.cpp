@@ -27,6 +27,15 @@ std::string text_of(InDegrees<const double> value) {
   return text_of(deg_from_rad(value.angle_rad));
 }
 
+std::string text_of(const std::vector<cv::Rect>& rectangles) {
+  std::string text;
+  for (const cv::Rect& r : rectangles) {
+    text += (text.empty() ? "[" : ", [") + std::to_string(r.x) + ", " + std::to_string(r.y) + ", " +
+            std::to_string(r.width) + ", " + std::to_string(r.height) + "]";
+  }
+  return "[" + text + "]";
+}
+
 template <class Enum>
 
 requires std::is_enum_v<Enum> std::string text_of(Enum value) {

@@ -59,6 +59,9 @@ void visit_matching(Matching& matching, Visitor& visitor) {
   visitor.field("rcrop_px",
                 matching.rcrop_px,
                 "right-most columns of the matched image to discard (eq. 5.1)");
+  visitor.field("masks_px",
+                matching.masks_px,
+                "airframe: list of [u, v, width, height] in full-resolution pixels");
   visitor.field("block_px", matching.matcher.block_px, "side of the matched block, odd, 1...11");
   visitor.field("paths", matching.matcher.paths, "aggregation paths: 3, 5 or 8");
   visitor.field("uniqueness_percent",

@@ -1,5 +1,6 @@
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -32,7 +33,9 @@ class Source {
 
 std::string wrong_type(const YAML::Node& node, const std::string& path, const char* expected) {
   return path + ": expected " + expected + ", found '" +
-         (node.IsScalar() ? node.Scalar() : std::string("a list or map")) + "'";
+         (node.IsScalar() ? node.Scalar()
+                          : std::string(node.IsNull() ? "nothing" : "a list or map")) +
+         "'";
 }
 
 /// An entry of a map: its key knows its line even where the value is empty.
@@ -50,6 +53,21 @@ std::optional<Entry> find_entry(const YAML::Node& map, std::string_view name) {
     }
   }
   return std::nullopt;
+}
+
+constexpr const char* kRectangles = "a list of [u, v, width, height], whole numbers, sizes above 0";
+
+std::optional<cv::Rect> to_rectangle(const YAML::Node& node) {
+  std::array<int, 4> v{};
+  if (!node.IsSequence() || node.size() != v.size()) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (!node[i].IsScalar() || !YAML::convert<int>::decode(node[i], v.at(i))) {
+      return std::nullopt;
+    }
+  }
+  return v[2] > 0 && v[3] > 0 ? std::optional(cv::Rect(v[0], v[1], v[2], v[3])) : std::nullopt;
 }
 
 /// Reads the fields that a document has; the others stay.
@@ -150,6 +168,20 @@ class Loader {
     double angle_deg = 0.0;
     read_scalar(entry, path, angle_deg, "an angle in degrees");
     value.angle_rad = rad_from_deg(angle_deg);
+  }
+
+  void read(const Entry& entry, const std::string& path, std::vector<cv::Rect>& rectangles) {
+    if (!entry.value.IsSequence()) {
+      throw source_.error(entry.key.Mark(), wrong_type(entry.value, path, kRectangles));
+    }
+    rectangles.clear();
+    for (const YAML::Node& item : entry.value) {
+      const std::optional<cv::Rect> rectangle = to_rectangle(item);
+      if (!rectangle) {
+        throw source_.error(entry.key.Mark(), wrong_type(item, path, kRectangles));
+      }
+      rectangles.push_back(*rectangle);
+    }
   }
 
   template <class Enum>

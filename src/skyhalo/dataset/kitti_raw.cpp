@@ -70,7 +70,11 @@ KittiRawDrive::KittiRawDrive(const fs::path& folder, const DatasetConfig& config
     throw input_error(folder_ / image_folder(left),
                       "no such folder; expected the left images of a KITTI raw drive");
   }
-  calibration_ = read_kitti_raw_calibration(folder_.parent_path(), cameras_);
+  fs::path day = folder_.parent_path();
+  if (!fs::exists(day / "calib_cam_to_cam.txt")) {  // the drive may be a link to somewhere else
+    day = fs::canonical(folder_).parent_path();
+  }
+  calibration_ = read_kitti_raw_calibration(day, cameras_);
   stamps_ = read_kitti_timestamps(folder_ / image_folder(left) / "timestamps.txt");
   for (int frame = 0; frame < frame_count(); ++frame) {
     for (const int camera : {left, left + 1}) {

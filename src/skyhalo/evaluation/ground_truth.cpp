@@ -1,6 +1,9 @@
 #include "skyhalo/evaluation/ground_truth.hpp"
 
 #include <algorithm>
+#include <limits>
+
+#include "skyhalo/geometry/ray_walk.hpp"
 
 namespace skyhalo {
 
@@ -28,17 +31,47 @@ std::vector<std::int64_t> occupied_cells(const LaserScan& scan,
       continue;
     }
     const Eigen::Vector3d p_annotation_m = view.T_annotation_laser * p_laser_m;
-    const bool moving = std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
+    const bool in_box = std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
       return contains(box, p_annotation_m);
     });
     const Eigen::Vector3i cell = grid.cell_of(view.T_map_laser * p_laser_m);
-    if (!moving && grid.holds(cell)) {
+    if (!in_box && grid.holds(cell)) {
       offsets.push_back(grid.offset_of(cell));
     }
   }
   std::sort(offsets.begin(), offsets.end());
   offsets.erase(std::unique(offsets.begin(), offsets.end()), offsets.end());
   return offsets;
+}
+
+std::vector<std::uint8_t> observed_cells(const LaserScan& scan,
+                                         const TruthView& view,
+                                         const VoxelGrid& grid) {
+  constexpr double kAnyRange = std::numeric_limits<double>::infinity();
+  std::vector<std::uint8_t> observed(static_cast<std::size_t>(grid.cell_count()), 0);
+  for (const Eigen::Vector3f& point : scan) {
+    const Eigen::Vector3d p_laser_m = point.cast<double>();
+    if (!is_seen(view.camera, view.camera.T_camera_laser * p_laser_m, kAnyRange)) {
+      continue;
+    }
+    const double end_m = std::min(p_laser_m.norm(), view.max_range_m);
+    const Ray ray{view.T_map_laser.translation(),
+                  view.T_map_laser.linear() * p_laser_m.normalized()};
+    walk_ray(grid, ray, [&](std::int64_t offset, double enter_m, double) {
+      if (enter_m > end_m) {
+        return false;
+      }
+      observed[static_cast<std::size_t>(offset)] = 1;
+      return true;
+    });
+  }
+  return observed;
+}
+
+void GroundTruth::mark_observed(std::span<const std::uint8_t> observed) noexcept {
+  for (std::size_t i = 0; i < observed_.size(); ++i) {
+    observed_[i] |= observed[i];
+  }
 }
 
 void GroundTruth::mark(std::span<const std::int64_t> offsets) noexcept {

@@ -15,9 +15,14 @@ constexpr std::size_t kValues = 65536;
 /// exactly and with one exponential per value instead of one per cell.
 using Histogram = std::vector<std::array<std::int64_t, 2>>;
 
-Histogram count_values(std::span<const LogOdds> cells, std::span<const std::uint8_t> truth) {
+Histogram count_values(std::span<const LogOdds> cells,
+                       std::span<const std::uint8_t> truth,
+                       std::span<const std::uint8_t> counted) {
   Histogram histogram(kValues, {0, 0});
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!counted.empty() && counted[i] == 0) {
+      continue;
+    }
     const auto value = static_cast<std::size_t>(cells[i] - kFirstValue);
     ++histogram[value][truth[i] != 0 ? 1 : 0];
   }
@@ -64,8 +69,9 @@ struct Sums {
 
 Metrics score(std::span<const LogOdds> map_cells,
               std::span<const std::uint8_t> truth,
-              double occupied_probability) {
-  const Histogram histogram = count_values(map_cells, truth);
+              double occupied_probability,
+              std::span<const std::uint8_t> counted) {
+  const Histogram histogram = count_values(map_cells, truth, counted);
   Metrics m;
   Sums sums;
   for (std::size_t i = 0; i < kValues; ++i) {

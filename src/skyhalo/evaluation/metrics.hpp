@@ -25,9 +25,10 @@ struct Metrics {
 
 /// Scores the cells of a map against the truth (1 occupied, 0 free, same order and length). A cell
 /// is called occupied iff its probability is above `occupied_probability`; everything else,
-/// unobserved too, is free.
+/// unobserved too, is free. With `counted` (same length), only cells that are not 0 there enter.
 [[nodiscard]] Metrics score(std::span<const LogOdds> map_cells,
                             std::span<const std::uint8_t> truth,
-                            double occupied_probability);
+                            double occupied_probability,
+                            std::span<const std::uint8_t> counted = {});
 
 }  // namespace skyhalo

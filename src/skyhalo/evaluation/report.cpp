@@ -62,6 +62,7 @@ json to_json(const Metrics& metrics) {
 json to_json(const FrameMetrics& row) {
   json object = to_json(row.metrics);
   object["frame"] = row.frame;
+  object["observed"] = to_json(row.observed);
   return object;
 }
 
@@ -112,7 +113,7 @@ std::string base64(const std::string& bytes) {
 json facts_json(const EvaluationResult& result) {
   return {{"version", result.version},
           {"source", result.source},
-          {"protocol", "thesis"},
+          {"protocol", "thesis"},  // of the scores that stand by themselves
           {"frames", result.rows.size()},
           {"voxel_m", result.grid.voxel_m},
           {"bounds_m", bounds_json(result.grid)},
@@ -120,7 +121,8 @@ json facts_json(const EvaluationResult& result) {
           {"cells", result.grid.cell_count()},
           {"occupied_cells", result.occupied_cells},
           {"skipped_scans", result.skipped_scans},
-          {"seconds", result.seconds},
+          {"labelled", result.labelled},
+          {"seconds", result.duration_s},
           {"stages", stages_json(result)}};
 }
 
@@ -155,9 +157,10 @@ std::string metrics_table(const EvaluationResult& result) {
       "correlation |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   if (!result.rows.empty()) {
     table += table_row(result.sequence, result.rows.back().metrics);
+    table += table_row(result.sequence + ", observed cells", result.rows.back().observed);
   }
   if (const auto thesis = thesis_row(result.sequence)) {
-    table += table_row("thesis, " + result.sequence, *thesis);
+    table += table_row("thesis, " + result.sequence + " (whole sequence)", *thesis);
   }
   return table;
 }
@@ -172,6 +175,11 @@ json metrics_summary(const EvaluationResult& result) {
     sequences.push_back(last);
   }
   summary["sequences"] = sequences;
+  json stages = json::object();
+  for (const StageTimes& stage : result.stages) {
+    stages[stage.stage] = {{"p50_ms", stage.p50_ms}, {"p95_ms", stage.p95_ms}};
+  }
+  summary["stages"] = stages;
   return summary;
 }
 

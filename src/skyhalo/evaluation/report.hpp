@@ -12,7 +12,8 @@ namespace skyhalo {
 /// The scores after one frame.
 struct FrameMetrics {
   int frame = 0;
-  Metrics metrics;
+  Metrics metrics;     ///< protocol `thesis`: all cells
+  Metrics observed{};  ///< protocol `observed`: only cells that the laser crossed or ended in
 };
 
 /// One stage's times.
@@ -41,15 +42,16 @@ struct EvaluationResult {
   std::vector<FrameMetrics> rows;
   std::vector<StageTimes> stages;
   std::vector<ReportPicture> pictures;
-  double seconds = 0.0;
+  bool labelled = true;  ///< whether annotated boxes were left out of the ground truth
+  double duration_s = 0.0;
   std::string config_yaml;
 };
 
 /// `metrics.csv`: a header and a row per frame; a score that is not defined is an empty field.
 [[nodiscard]] std::string metrics_csv(const EvaluationResult& result);
 
-/// `table.md`: the last row in the columns of the thesis's table 8.1, with the thesis's own row for
-/// the sequence where it prints one.
+/// `table.md`: the last row in the columns of the thesis's table 8.1, for both protocols, with the
+/// thesis's own row for the sequence where it prints one.
 [[nodiscard]] std::string metrics_table(const EvaluationResult& result);
 
 /// `summary.json` and the `--json` line; a score that is not defined is null.

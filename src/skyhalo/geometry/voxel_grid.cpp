@@ -1,5 +1,6 @@
 #include "skyhalo/geometry/voxel_grid.hpp"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string>
@@ -34,7 +35,7 @@ VoxelGrid make_voxel_grid(const Eigen::AlignedBox3d& bounds_m, double voxel_m) {
       throw bounds_error(axis, bounds_m.min()[axis], bounds_m.max()[axis]);
     }
     // A length that is a whole number of voxels but for rounding must not gain a layer.
-    const double count = std::ceil(length_m / voxel_m - 1e-6);
+    const double count = std::max(1.0, std::ceil(length_m / voxel_m - 1e-6));
     cells *= count;
     if (!(cells < kMaxCells)) {
       throw Error(ErrorKind::kInput,

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -85,12 +86,18 @@ cv::Mat read_image(const std::filesystem::path& file) {
   return image;
 }
 
-void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+std::string encode_png(const cv::Mat& image) {
+  constexpr int kLargestPx = 1 << 20;
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) {
-    throw Error(ErrorKind::kFailure, file.string() + ": the image cannot be encoded");
+  if (image.empty() || std::max(image.cols, image.rows) > kLargestPx ||
+      !cv::imencode(".png", image, bytes)) {
+    throw Error(ErrorKind::kFailure, "a picture cannot be encoded as PNG");
   }
-  write_bytes(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  return {bytes.begin(), bytes.end()};
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+  write_bytes(file, encode_png(image));
 }
 
 }  // namespace skyhalo

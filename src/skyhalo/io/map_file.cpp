@@ -33,22 +33,37 @@ std::vector<ColouredPoint> occupied_points(const DenseMap& map, double occupied_
   return cell_points(map.grid(), offsets);
 }
 
+namespace {
+
+/// The octree's key of the map's first cell. One rounding for the whole map: cells keep their
+/// neighbours even off the octree's lattice.
+Eigen::Vector3i first_octree_key(const std::filesystem::path& file, const VoxelGrid& grid) {
+  constexpr double kKeyOfZero = 32768.0;
+  const Eigen::Array3d first = (grid.min_m / grid.voxel_m).array().round() + kKeyOfZero;
+  if ((first < 0.0).any() || (first + grid.size.cast<double>().array() > 2.0 * kKeyOfZero).any()) {
+    throw Error(ErrorKind::kFailure,
+                file.string() + ": the map reaches beyond what an octree of this cell can hold");
+  }
+  return first.cast<int>();
+}
+
+}  // namespace
+
 void write_octree(const std::filesystem::path& file, const DenseMap& map) {
   const VoxelGrid& grid = map.grid();
   octomap::OcTree tree(grid.voxel_m);
   // The map has its own limits; the octree must not add tighter ones.
   tree.setClampingThresMin(0.0);
   tree.setClampingThresMax(1.0);
+  const Eigen::Vector3i first_key = first_octree_key(file, grid);
   for (std::int64_t offset = 0; const LogOdds cell : map.cells()) {
     if (cell != kUnknown) {
-      const Eigen::Vector3d center_m = grid.center_m(grid.cell_at(offset));
-      octomap::OcTreeKey key;
-      if (!tree.coordToKeyChecked(center_m.x(), center_m.y(), center_m.z(), key)) {
-        throw Error(
-            ErrorKind::kFailure,
-            file.string() + ": the map reaches beyond what an octree of this cell can hold");
-      }
-      tree.setNodeValue(key, static_cast<float>(kLogOddsPerUnit * cell), true);
+      const Eigen::Vector3i key = first_key + grid.cell_at(offset);
+      tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(key.x()),
+                                           static_cast<octomap::key_type>(key.y()),
+                                           static_cast<octomap::key_type>(key.z())),
+                        static_cast<float>(kLogOddsPerUnit * cell),
+                        true);
     }
     ++offset;
   }

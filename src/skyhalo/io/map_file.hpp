@@ -17,8 +17,9 @@ namespace skyhalo {
                                                      const std::vector<std::int64_t>& offsets);
 
 /// Writes all observed cells with their log odds as an OctoMap `.ot` file (readable by octovis and
-/// OctoMap's tools). An octree's cells lie on multiples of its resolution: cells go to the octree
-/// cell that holds their centre. Throws `Error` (failure) when the map leaves the octree's range
+/// OctoMap's tools). An octree's cells lie on multiples of its resolution: a map that does not lie
+/// there is shifted, as a whole, by at most half a cell. Throws `Error` (failure) when the map
+/// leaves the octree's range
 /// (+-32768 cells) or the file cannot be written.
 void write_octree(const std::filesystem::path& file, const DenseMap& map);
 

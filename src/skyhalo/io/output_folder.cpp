@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -29,9 +31,20 @@ fs::path first_missing(const fs::path& path) {
   return missing;
 }
 
+/// Removes a folder and its parents up to `topmost`, as far as they are empty: others may use them
+/// too.
+void remove_empty(fs::path folder, const fs::path& topmost) {
+  std::error_code status;
+  folder = fs::absolute(folder).lexically_normal();
+  while (!topmost.empty() && fs::remove(folder, status) && folder != topmost) {
+    folder = folder.parent_path();
+  }
+}
+
 }  // namespace
 
 void write_bytes(const fs::path& file, std::string_view bytes) {
+  errno = 0;
   std::ofstream stream(file, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
@@ -40,28 +53,48 @@ void write_bytes(const fs::path& file, std::string_view bytes) {
   }
 }
 
-OutputFolder::OutputFolder(fs::path folder)
-    : folder_(std::move(folder)), created_(first_missing(folder_)) {
-  staging_ = folder_ / (".unfinished-" + std::to_string(::getpid()));
+OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
+  if (folder_.empty()) {
+    throw Error(ErrorKind::kFailure, "output folder: expected a name, found nothing");
+  }
+  created_ = first_missing(folder_);
   std::error_code status;
-  fs::create_directories(staging_, status);
+  fs::create_directories(folder_, status);
+  // A name of its own even where process numbers repeat, as in containers.
+  std::string name = (folder_ / ".unfinished-XXXXXX").string();
+  if (!status && ::mkdtemp(name.data()) == nullptr) {
+    status = std::error_code(errno, std::generic_category());
+  }
   if (status) {
+    // Of the folders on the way, the deepest that was made comes first.
+    fs::path made = fs::absolute(folder_).lexically_normal();
     std::error_code ignored;
-    fs::remove_all(created_.empty() ? staging_ : created_, ignored);
+    while (!created_.empty() && made != created_ && !fs::exists(made, ignored)) {
+      made = made.parent_path();
+    }
+    remove_empty(made, created_);
     throw cannot_write(folder_, status);
   }
+  staging_ = name;
+  fs::permissions(staging_, fs::status(folder_).permissions(), status);
 }
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
-  if (!committed_ && !created_.empty()) {
-    fs::remove_all(created_, ignored);
+  if (!committed_) {
+    remove_empty(folder_, created_);
   }
 }
 
 void OutputFolder::commit() {
   std::error_code status;
+  for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
+    const fs::path target = folder_ / entry.path().filename();
+    if (fs::is_directory(target, status)) {
+      throw cannot_write(target, std::make_error_code(std::errc::is_a_directory));
+    }
+  }
   for (const fs::directory_entry& entry : fs::directory_iterator(staging_)) {
     fs::rename(entry.path(), folder_ / entry.path().filename(), status);
     if (status) {

@@ -21,7 +21,8 @@ class OutputFolder {
   OutputFolder(OutputFolder&&) = delete;
   OutputFolder& operator=(OutputFolder&&) = delete;
 
-  /// Removes what was not committed, and the folder too if this object created it.
+  /// Removes what was not committed, and the folder too if this object created it and nobody else
+  /// uses it.
   ~OutputFolder();
 
   /// Where to write the file called `name` until `commit`.

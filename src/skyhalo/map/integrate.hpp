@@ -1,7 +1,7 @@
 #pragma once
 
+#include "skyhalo/geometry/ray_walk.hpp"
 #include "skyhalo/map/dense_map.hpp"
-#include "skyhalo/map/ray_walk.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
 
 namespace skyhalo {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <opencv2/core/types.hpp>
+#include <vector>
+
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
 #include "skyhalo/sphere/grid_geometry.hpp"
@@ -12,6 +15,7 @@ struct MatchingConfig {
   int downscale = 2;  ///< whole factor by which images are shrunk before matching, 1...16
   int rcrop_px =
       64;  ///< right-most columns of the matched image that are discarded (eq. 5.1), >= 0
+  std::vector<cv::Rect> masks_px;  ///< airframe, in full-resolution pixels of every pair
   MatcherConfig matcher;
 };
 

@@ -56,6 +56,7 @@ struct ObstacleDetector::PairEngine {
     matcher.match(rectified->left, rectified->right, seen.disparity);
     discard_right_columns(seen.disparity, matching.rcrop_px);
     discard_rectangles(seen.disparity, description.masks_px, matching.downscale);
+    discard_rectangles(seen.disparity, matching.masks_px, matching.downscale);
   }
 
   void fill_grid() noexcept {

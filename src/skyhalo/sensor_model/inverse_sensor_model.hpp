@@ -52,7 +52,7 @@ class InverseSensorModel {
   }
 
   /// Distance from which a cell in front of the measurement is indistinguishable from merely
-  /// crossed (six deviations; the difference is below 1e-8).
+  /// crossed (six deviations; the difference is below 2e-8).
   [[nodiscard]] double free_until_m() const noexcept { return z_m_ - 6.0 * delta_z_m_; }
 
   /// The peak's height above p_unknown: `a` (thesis eq. 6.5).

@@ -11,7 +11,7 @@ namespace skyhalo {
 struct DepthRule {
   double sigma_threshold_m = 0.5;  ///< cells whose deviation is below this are one surface
   double sigma_factor = 3.0;       ///< how many deviations in front of the mean
-  double min_range_m = 0.0;        ///< the smallest range that the pair can measure
+  double min_range_m = 0.0;        ///< the smallest range that the pair can measure (f B / d_max)
 };
 
 /// What the points of one cell amount to; distances from the body origin.

@@ -21,10 +21,13 @@ struct RayInterval {
   double leave_m = std::numeric_limits<double>::infinity();
 };
 
-/// Clips a ray to the box of a grid (slab test); a ray that misses, or has a NaN,
+/// Clips a ray to the box of a grid (slab test); a ray that misses, or has a NaN or no direction,
 /// gives an empty interval.
 [[nodiscard]] inline RayInterval clip(const Ray& ray, const VoxelGrid& grid) noexcept {
   RayInterval inside;
+  if (ray.direction.isZero(0.0)) {
+    return {0.0, 0.0};
+  }
   const Eigen::Vector3d max_m = grid.max_m();
   for (int axis = 0; axis < 3; ++axis) {
     const double to_min_m = grid.min_m[axis] - ray.origin_m[axis];

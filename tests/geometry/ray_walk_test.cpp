@@ -1,4 +1,4 @@
-#include "skyhalo/map/ray_walk.hpp"
+#include "skyhalo/geometry/ray_walk.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -161,6 +161,10 @@ TEST(RayWalkTest, StopsWhenTold) {
     return visits < 2;
   });
   EXPECT_EQ(visits, 2);
+}
+
+TEST(RayWalkTest, ARayWithoutDirectionVisitsNothing) {
+  EXPECT_THAT(walk(small_grid(), {{0.2, 0.7, 0.3}, {0.0, 0.0, 0.0}}), ::testing::IsEmpty());
 }
 
 TEST(RayWalkTest, ARayThatIsNotFiniteVisitsNothing) {
