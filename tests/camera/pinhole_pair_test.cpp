@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -86,7 +87,7 @@ TEST(PinholePairTest, TheOffsetIsAddedToTheDisparity) {
   EXPECT_TRUE(uncertainty_m(pair, {420.0, 200.0, 16.0}, 0.5)
                   .isApprox(Eigen::Vector3d(0.0625, 0.025, 0.25), 1e-12));
   // 400 * 0.5 / (60 + 4) = 3.125 m.
-  EXPECT_NEAR(min_depth_m(pair, 60.0), 3.125, 1e-12);
+  EXPECT_NEAR(range_at_disparity_m(pair, 60.0), 3.125, 1e-12);
 }
 
 TEST(PinholePairTest, UncertaintyByTheEquation) {
@@ -96,7 +97,25 @@ TEST(PinholePairTest, UncertaintyByTheEquation) {
 }
 
 TEST(PinholePairTest, TheSearchRangeLimitsTheNearestDepth) {
-  EXPECT_NEAR(min_depth_m(example_pair(), 64.0), 3.125, 1e-12);  // 400 * 0.5 / 64
+  EXPECT_NEAR(range_at_disparity_m(example_pair(), 64.0), 3.125, 1e-12);  // 400 * 0.5 / 64
+  EXPECT_NEAR(min_range_m(example_pair(), 640, 64.0), 3.125, 1e-12);
+  EXPECT_NEAR(min_range_m(example_pair(), 64, 64.0), 3.125, 1e-12);
+}
+
+TEST(PinholePairTest, NoDisparityIsInfinitelyFar) {
+  PinholePair pair = example_pair();
+  pair.disparity_offset_px = -4.0;
+  EXPECT_EQ(range_at_disparity_m(pair, 4.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(range_at_disparity_m(pair, 0.0), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(range_at_disparity_m(pair, 5.0), 200.0, 1e-12);
+}
+
+TEST(PinholePairTest, RangeUncertaintyGrowsWithTheSquare) {
+  // 10^2 * 0.5 / (0.5 * 400) = 0.25 m; at 20 m four times that.
+  EXPECT_NEAR(delta_z_m(example_pair(), 10.0, 0.5), 0.25, 1e-12);
+  EXPECT_NEAR(delta_z_m(example_pair(), 20.0, 0.5), 1.0, 1e-12);
+  EXPECT_NEAR(range_at_uncertainty_m(example_pair(), 1.0, 0.5), 20.0, 1e-12);
+  EXPECT_NEAR(range_at_uncertainty_m(example_pair(), 0.25, 0.5), 10.0, 1e-12);
 }
 
 TEST(PinholePairTest, DownscaledMovesThePrincipalPoint) {
@@ -141,6 +160,32 @@ TEST(PinholePairProperty, TheUncertaintyIsTheSlopeOfThePoint) {
                                   (2.0 * kStep);
     const Eigen::Vector3d expected_m = 0.25 * slope.cwiseAbs();
     EXPECT_LT((uncertainty_m(pair, pixel, 0.25) - expected_m).norm(), 1e-6 * expected_m.norm());
+  }
+}
+
+TEST(PinholePairProperty, RangeUncertaintyIsThatOfThePointStraightAhead) {
+  RandomPairs random(26);
+  for (int i = 0; i < 1000; ++i) {
+    const PinholePair pair = random.pair();
+    const double z_m = random.in(0.3, 100.0);
+    const Eigen::Vector3d pixel = project(pair, {0.0, 0.0, z_m});
+    const double expected_m = uncertainty_m(pair, pixel, 0.25).z();
+    EXPECT_NEAR(delta_z_m(pair, z_m, 0.25), expected_m, 1e-9 * expected_m);
+    EXPECT_NEAR(range_at_uncertainty_m(pair, expected_m, 0.25), z_m, 1e-9 * z_m);
+    EXPECT_NEAR(range_at_disparity_m(pair, pixel.z()), z_m, 1e-9 * z_m);
+  }
+}
+
+TEST(PinholePairProperty, NothingInTheImageIsMeasuredNearer) {
+  RandomPairs random(27);
+  for (int i = 0; i < 100; ++i) {
+    PinholePair pair = random.pair();
+    pair.principal_u_px = 320.0;
+    double smallest_m = std::numeric_limits<double>::infinity();
+    for (int u = 0; u < 640; ++u) {
+      smallest_m = std::min(smallest_m, reproject(pair, u, pair.principal_v_px, 100.0).norm());
+    }
+    EXPECT_NEAR(min_range_m(pair, 640, 100.0), smallest_m, 1e-12 * smallest_m);
   }
 }
 

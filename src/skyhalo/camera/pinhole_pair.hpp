@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 
 namespace skyhalo {
@@ -14,6 +15,14 @@ struct PinholePair {
   double baseline_m = 0.0;           ///< B, > 0; the left camera sits at (-B, 0, 0)
   double disparity_offset_px = 0.0;  ///< added to d where the two principal points differ in u
 };
+
+/// Unit vector (`cam`) of the ray of right-image pixel (u, v).
+[[nodiscard]] inline Eigen::Vector3d ray_of(const PinholePair& pair,
+                                            double u_px,
+                                            double v_px) noexcept {
+  return Eigen::Vector3d(u_px - pair.principal_u_px, v_px - pair.principal_v_px, pair.focal_px)
+      .normalized();
+}
 
 /// The point (m, `cam`) that pixel (u, v) with disparity d sees (thesis eq. 4.1):
 /// `((u-u0) B/d, (v-v0) B/d, f B/d)`. A disparity that is not above 0, offset included, gives NaN.
@@ -53,9 +62,36 @@ struct PinholePair {
          m_per_px;
 }
 
-/// Depth (m, along z) of the nearest thing that a search up to `max_disparity_px` can find.
-[[nodiscard]] inline double min_depth_m(const PinholePair& pair, double max_disparity_px) noexcept {
-  return pair.focal_px * pair.baseline_m / (max_disparity_px + pair.disparity_offset_px);
+/// Range uncertainty straight ahead at range z (thesis eq. 6.9): `z^2 delta_d / (B f)`, in m.
+[[nodiscard]] inline double delta_z_m(const PinholePair& pair,
+                                      double z_m,
+                                      double delta_d_px) noexcept {
+  return z_m * z_m * delta_d_px / (pair.baseline_m * pair.focal_px);
+}
+
+/// The range straight ahead at which the uncertainty reaches `limit_m`; the inverse of `delta_z_m`.
+[[nodiscard]] inline double range_at_uncertainty_m(const PinholePair& pair,
+                                                   double limit_m,
+                                                   double delta_d_px) noexcept {
+  return std::sqrt(limit_m * pair.baseline_m * pair.focal_px / delta_d_px);
+}
+
+/// Range (m) straight ahead at disparity d, `f B/d`: the nearest thing that a search up to d finds
+/// there, or the farthest that d still tells from infinity. Infinite where d, offset included, is
+/// not above 0.
+[[nodiscard]] inline double range_at_disparity_m(const PinholePair& pair,
+                                                 double disparity_px) noexcept {
+  const double d_px = disparity_px + pair.disparity_offset_px;
+  return d_px > 0.0 ? pair.focal_px * pair.baseline_m / d_px
+                    : std::numeric_limits<double>::infinity();
+}
+
+/// The smallest range (m) that a search up to `max_disparity_px` can measure anywhere in an image
+/// of `width_px` columns: straight ahead, whatever the width.
+[[nodiscard]] inline double min_range_m(const PinholePair& pair,
+                                        [[maybe_unused]] int width_px,
+                                        double max_disparity_px) noexcept {
+  return range_at_disparity_m(pair, max_disparity_px);
 }
 
 /// The same pair for images shrunk by a whole factor s by area averaging (METHOD 1): f and the
