@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "skyhalo/camera/pinhole_pair.hpp"
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/geometry/spherical.hpp"
 #include "skyhalo/map/integrate.hpp"

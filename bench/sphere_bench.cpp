@@ -12,7 +12,7 @@ namespace {
 void accumulate_image(benchmark::State& state) {
   Eigen::Matrix3d R_body_camera;
   R_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const PairGeometry pair{.model = {320.0, 319.5, 179.5, 0.2},
+  const PairGeometry pair{.model = PinholePair{320.0, 319.5, 179.5, 0.2},
                           .T_body_camera = make_pose(R_body_camera, Eigen::Vector3d::Zero()),
                           .max_range_m = 33.0};
   SphericalGrid grid(make_grid_geometry({.theta_min_rad = rad_from_deg(40.0),

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "skyhalo/camera/pair_model.hpp"
 #include "skyhalo/geometry/pose.hpp"
 #include "skyhalo/map/dense_map.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
@@ -11,7 +12,7 @@ namespace skyhalo {
 
 /// What turns a grid's depths into map updates.
 struct RangeModel {
-  PinholePair pair;  ///< at the matched resolution
+  PairModel pair;  ///< at the matched resolution
   SensorModelConfig sensor;
   DepthRule depth;
   int limit_units = 5000;  ///< of the log odds, in units of 0.001

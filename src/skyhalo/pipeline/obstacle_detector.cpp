@@ -26,23 +26,33 @@ void run_stage(StageObserver* observer, Stage stage, std::size_t pair, Work&& wo
   }
 }
 
+/// The configuration's settings, but for what the pair's description says itself.
+MatchingConfig settings_of(const StereoPair& pair, MatchingConfig matching) {
+  matching.downscale = pair.downscale.value_or(matching.downscale);
+  matching.rcrop_px = pair.rcrop_px.value_or(matching.rcrop_px);
+  return matching;
+}
+
 }  // namespace
 
 /// The engines and memory of one pair.
 struct ObstacleDetector::PairEngine {
   PairEngine(const StereoPair& pair, const DetectorConfig& config)
       : description(pair),
-        matching(config.matching),
-        rectifier(config.matching.downscale),
-        matcher(config.matching.matcher),
-        geometry{downscaled(pair.model, config.matching.downscale),
+        matching(settings_of(pair, config.matching)),
+        rectifier(pair, matching.downscale),
+        matcher(matching.matcher),
+        geometry{downscaled(pair.model, matching.downscale),
                  pair.T_body_camera,
-                 config.sphere.max_range_m},
+                 pair.min_range_m.value_or(0.0),
+                 pair.max_range_m.value_or(config.sphere.max_range_m)},
         seen{.disparity = {},
              .grid = SphericalGrid(make_grid_geometry(config.sphere.bounds)),
              .depth = {config.sphere.sigma_threshold_m,
                        config.sphere.sigma_factor,
-                       min_depth_m(geometry.model, config.matching.matcher.max_disparity_px)},
+                       min_range_m(geometry.model,
+                                   pair.image_size_px.width / matching.downscale,
+                                   matching.matcher.max_disparity_px)},
              .pixels = {}},
         rays(seen.grid.geometry()),
         range_model{geometry.model,
@@ -54,6 +64,7 @@ struct ObstacleDetector::PairEngine {
 
   void match() {
     matcher.match(rectified->left, rectified->right, seen.disparity);
+    discard_unseen(seen.disparity, rectified->right_valid, rectified->left_valid);
     discard_right_columns(seen.disparity, matching.rcrop_px);
     discard_rectangles(seen.disparity, description.masks_px, matching.downscale);
     discard_rectangles(seen.disparity, matching.masks_px, matching.downscale);
@@ -124,8 +135,8 @@ void ObstacleDetector::check_frames(const FrameSet& frames) const {
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const StereoPair& pair = pairs_[i].description;
-    if (frames.pairs[i].left.size() != pair.image_size_px ||
-        frames.pairs[i].right.size() != pair.image_size_px) {
+    if (frames.pairs[i].left.size() != left_image_size_px(pair) ||
+        frames.pairs[i].right.size() != right_image_size_px(pair)) {
       throw Error(ErrorKind::kInput,
                   "pair " + pair.name + ": images of another size than the rig's");
     }

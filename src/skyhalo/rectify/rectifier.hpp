@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "skyhalo/camera/stereo_rig.hpp"
+#include "skyhalo/rectify/remapper.hpp"
 
 namespace skyhalo {
 
@@ -10,27 +13,39 @@ namespace skyhalo {
 struct RectifiedPair {
   cv::Mat1b left;
   cv::Mat1b right;
+  cv::Mat1b left_valid;   ///< 255 where the raw camera saw something; empty when it did everywhere
+  cv::Mat1b right_valid;  ///< likewise
 };
 
-/// Brings the images of an already rectified pair to the matched resolution: grey, 8 bit, shrunk by
-/// a whole factor with area averaging. Rows and columns beyond a multiple of the factor are left
-/// out at the bottom and right, so that `downscaled(model, factor)` describes the result exactly.
-/// One object per pair; not for use by two threads at once.
+/// Brings the images of a pair to the matched resolution: grey, 8 bit, rectified, shrunk by a whole
+/// factor with area averaging. Raw images are warped to the virtual pair straight at that
+/// resolution; images that come rectified are only shrunk. Rows and columns beyond a multiple of
+/// the factor are left out at the bottom and right, so that `downscaled(model, factor)` describes
+/// the result exactly. One object per pair; not for use by two threads at once.
 class Rectifier {
  public:
-  /// `factor` >= 1. Throws `Error` (input) otherwise.
-  explicit Rectifier(int factor);
+  /// `factor` >= 1. Throws `Error` (input) when it is not, or leaves nothing of the pair's images.
+  Rectifier(const StereoPair& pair, int factor);
 
   /// The pair at the matched resolution, valid until the next call. Throws `Error` (input) when the
-  /// images are empty, differ in size, or are neither 8 nor 16 bit with 1, 3 or 4 channels.
+  /// images are empty, have not the size that the pair says, or are neither 8 nor 16 bit with 1, 3
+  /// or 4 channels.
   const RectifiedPair& rectify(const StereoImages& images);
 
  private:
-  void bring(const cv::Mat& image, cv::Mat1b& out);
+  /// What one camera needs from frame to frame.
+  struct Side {
+    cv::Size size_px;  // of the images that come
+    std::optional<Remapper> remapper;
+    cv::Mat grey;
+    cv::Mat grey_8bit;
+  };
+
+  void bring(const cv::Mat& image, Side& side, cv::Mat1b& out) const;
 
   int factor_;
-  cv::Mat grey_;
-  cv::Mat grey_8bit_;
+  Side left_;
+  Side right_;
   RectifiedPair pair_;
 };
 

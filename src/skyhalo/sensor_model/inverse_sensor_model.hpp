@@ -1,9 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
-
-#include "skyhalo/camera/pinhole_pair.hpp"
 
 namespace skyhalo {
 
@@ -17,14 +14,6 @@ struct SensorModelConfig {
 
 /// Throws `Error` (input) naming the key when a setting is outside its domain.
 void check(const SensorModelConfig& config);
-
-/// Range uncertainty of a pinhole pair at range z (thesis eq. 6.9): `z^2 delta_d / (B f)`, in m; f
-/// of the matched resolution.
-[[nodiscard]] inline double delta_z_m(const PinholePair& pair,
-                                      double z_m,
-                                      double delta_d_px) noexcept {
-  return z_m * z_m * delta_d_px / (pair.baseline_m * pair.focal_px);
-}
 
 /// The inverse sensor model along one ray with measurement z (thesis eq. 6.4 to 6.6). The constants
 /// of the ray are worked out once; then each map cell on it is asked by its distance m.

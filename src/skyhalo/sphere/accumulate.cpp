@@ -1,23 +1,27 @@
 #include "skyhalo/sphere/accumulate.hpp"
 
 namespace skyhalo {
+namespace {
 
-PixelCounts accumulate(const cv::Mat1f& disparity,
-                       const PairGeometry& pair,
-                       SphericalGrid& grid) noexcept {
+/// `Model` is a rectified pair model, known for the whole frame.
+template <class Model>
+PixelCounts accumulate_with(const Model& model,
+                            const cv::Mat1f& disparity,
+                            const PairGeometry& pair,
+                            SphericalGrid& grid) noexcept {
   PixelCounts counts;
+  const double min_range_m2 = pair.min_range_m * pair.min_range_m;
   const double max_range_m2 = pair.max_range_m * pair.max_range_m;
   for (int v = 0; v < disparity.rows; ++v) {
     const float* row = disparity[v];
     for (int u = 0; u < disparity.cols; ++u) {
-      const double d_px = row[u];
-      // Written so that NaN, and a disparity at infinity, fail it.
-      if (!(d_px + pair.model.disparity_offset_px > 0.0)) {
+      const Eigen::Vector3d p_camera_m = reproject(model, u, v, row[u]);
+      if (std::isnan(p_camera_m.z())) {  // no disparity, or none that this pixel can have
         continue;
       }
       ++counts.measured;
-      const Eigen::Vector3d p_camera_m = reproject(pair.model, u, v, d_px);
-      if (p_camera_m.squaredNorm() > max_range_m2) {
+      const double range_m2 = p_camera_m.squaredNorm();
+      if (!(range_m2 >= min_range_m2 && range_m2 <= max_range_m2)) {
         continue;
       }
       ++counts.used;
@@ -25,6 +29,16 @@ PixelCounts accumulate(const cv::Mat1f& disparity,
     }
   }
   return counts;
+}
+
+}  // namespace
+
+PixelCounts accumulate(const cv::Mat1f& disparity,
+                       const PairGeometry& pair,
+                       SphericalGrid& grid) noexcept {
+  return ask(pair.model, [&](const auto& model) {
+    return accumulate_with(model, disparity, pair, grid);
+  });
 }
 
 }  // namespace skyhalo

@@ -2,7 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "skyhalo/camera/pinhole_pair.hpp"
+#include "skyhalo/camera/pair_model.hpp"
 #include "skyhalo/geometry/pose.hpp"
 #include "skyhalo/sphere/spherical_grid.hpp"
 
@@ -11,13 +11,14 @@ namespace skyhalo {
 /// How many pixels of a disparity image became points.
 struct PixelCounts {
   int measured = 0;  ///< pixels with a disparity
-  int used = 0;      ///< of these, the ones that see something within the range limit
+  int used = 0;      ///< of these, the ones that see something within the range limits
 };
 
 /// One pair's geometry at the matched resolution.
 struct PairGeometry {
-  PinholePair model;
+  PairModel model;
   Pose T_body_camera = Pose::Identity();
+  double min_range_m = 0.0;  ///< nearer points (from the camera) are left out, >= 0
   double max_range_m = 0.0;  ///< farther points (from the camera) are left out, > 0
 };
 

@@ -1,6 +1,7 @@
 #include "skyhalo/stereo/disparity_mask.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace skyhalo {
@@ -36,6 +37,26 @@ void discard_rectangles(cv::Mat1f& disparity, std::span<const cv::Rect> masks_px
     const cv::Point to(ceil_div(mask.x + mask.width, downscale),
                        ceil_div(mask.y + mask.height, downscale));
     disparity(cv::Rect(from, to) & image).setTo(kNone);
+  }
+}
+
+void discard_unseen(cv::Mat1f& disparity,
+                    const cv::Mat1b& right_valid,
+                    const cv::Mat1b& left_valid) noexcept {
+  for (int v = 0; v < disparity.rows; ++v) {
+    float* row = disparity[v];
+    const std::uint8_t* right = right_valid.empty() ? nullptr : right_valid[v];
+    const std::uint8_t* left = left_valid.empty() ? nullptr : left_valid[v];
+    for (int u = 0; u < disparity.cols; ++u) {
+      if (right != nullptr && right[u] == 0) {
+        row[u] = kNone;
+      }
+      if (left != nullptr && !std::isnan(row[u])) {
+        const float match = std::round(static_cast<float>(u) + row[u]);
+        const bool inside = match >= 0.0F && match < static_cast<float>(disparity.cols);
+        row[u] = inside && left[static_cast<int>(match)] != 0 ? row[u] : kNone;
+      }
+    }
   }
 }
 
