@@ -1,3 +1,4 @@
+#include "skyhalo/camera/pinhole_pair.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 #include "skyhalo/io/output_folder.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,6 +32,13 @@ fs::path first_missing(const fs::path& path) {
   return missing;
 }
 
+/// The permissions that new files do not get.
+fs::perms current_mask() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return static_cast<fs::perms>(mask);
+}
+
 /// Removes a folder and its parents up to `topmost`, as far as they are empty: others may use them
 /// too.
 void remove_empty(fs::path folder, const fs::path& topmost) {
@@ -50,6 +58,36 @@ void write_bytes(const fs::path& file, std::string_view bytes) {
   stream.close();
   if (!stream) {
     throw cannot_write(file, std::error_code(errno, std::generic_category()));
+  }
+}
+
+void replace_file(const fs::path& file, std::string_view bytes) {
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(file, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    write_bytes(file, bytes);
+    return;
+  }
+  std::string beside = file.string() + ".unfinished-XXXXXX";
+  const int handle = ::mkstemp(beside.data());
+  if (handle < 0) {
+    throw cannot_write(file, std::error_code(errno, std::generic_category()));
+  }
+  ::close(handle);
+  std::error_code status;
+  try {
+    write_bytes(beside, bytes);
+    const fs::perms wanted = fs::exists(file, ignored) ? fs::status(file, ignored).permissions()
+                                                       : fs::perms(0666) & ~current_mask();
+    fs::permissions(beside, wanted, status);
+    fs::rename(beside, file, status);
+  } catch (const Error&) {
+    fs::remove(beside, ignored);
+    throw cannot_write(file, std::make_error_code(std::errc::io_error));
+  }
+  if (status) {
+    fs::remove(beside, ignored);
+    throw cannot_write(file, status);
   }
 }
 

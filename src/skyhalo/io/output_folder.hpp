@@ -8,6 +8,11 @@ namespace skyhalo {
 /// Writes a whole file. Throws `Error` (failure) naming the file when it cannot be written.
 void write_bytes(const std::filesystem::path& file, std::string_view bytes);
 
+/// Writes a whole file under a name that is never seen half written: beside it first, then renamed
+/// over it; links and what is no file, such as /dev/stdout, are written directly. Missing folders
+/// are not made. Throws `Error` (failure) naming the file, and leaves an earlier one as it was.
+void replace_file(const std::filesystem::path& file, std::string_view bytes);
+
 /// A folder of results that appear all at once: files are written to a hidden folder inside, and
 /// `commit` moves them to their names. Without a commit nothing of them stays, and earlier results
 /// in the folder are untouched.
