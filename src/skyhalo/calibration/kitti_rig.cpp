@@ -1,0 +1,130 @@
+#include "skyhalo/calibration/kitti_rig.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "skyhalo/calibration/imported_cameras.hpp"
+#include "skyhalo/calibration/key_value_file.hpp"
+#include "skyhalo/calibration/kitti_projection.hpp"
+#include "skyhalo/calibration/rotation_input.hpp"
+
+namespace skyhalo {
+namespace {
+
+using RowMajor34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+using std::filesystem::path;
+
+RigDescription rectified_rig(const cv::Size& size_px,
+                             const PinholePair& pair,
+                             const Pose& T_body_camera) {
+  return {.name = "kitti",
+          .T_body_imu = std::nullopt,
+          .pairs = {{.name = "front",
+                     .images = RectifiedPairDescription{size_px, pair},
+                     .T_body_camera = T_body_camera,
+                     .downscale = {},
+                     .rcrop_px = {},
+                     .masks_px = {},
+                     .min_range_m = {},
+                     .max_range_m = {}}}};
+}
+
+int whole_px(const KeyValueFile& file, const std::string& key, double value) {
+  constexpr double kLargest = 1e6;
+  if (!(value >= 1.0 && value <= kLargest) || std::trunc(value) != value) {
+    throw file.error(key, "expected a width and a height of whole pixels above 0");
+  }
+  return static_cast<int>(value);
+}
+
+cv::Size read_size_px(const KeyValueFile& file, const std::string& key) {
+  const std::vector<double> size = file.numbers(key, 2);
+  return {whole_px(file, key, size[0]), whole_px(file, key, size[1])};
+}
+
+/// The size of both rectified images.
+cv::Size read_pair_size_px(const KeyValueFile& file, KittiPair pair) {
+  const std::string left_key = "S_rect_0" + std::to_string(left_camera(pair));
+  const std::string right_key = "S_rect_0" + std::to_string(left_camera(pair) + 1);
+  const cv::Size size_px = read_size_px(file, right_key);
+  if (read_size_px(file, left_key) != size_px) {
+    throw file.error(right_key, "the image size differs from the left camera's");
+  }
+  return size_px;
+}
+
+/// The first spelling that is there; throws when none is.
+std::string spelling(const KeyValueFile& file,
+                     const std::string& first,
+                     const std::string& second) {
+  if (!file.has(first) && !file.has(second)) {
+    throw file.error(first, "this key is missing, and so is " + second);
+  }
+  return file.has(first) ? first : second;
+}
+
+/// A transform of 12 numbers, row by row (m).
+Pose read_transform(const KeyValueFile& file, const std::string& key) {
+  const std::vector<double> values = file.numbers(key, 12);
+  const RowMajor34 T = Eigen::Map<const RowMajor34>(values.data());
+  const Eigen::Matrix3d R = T.leftCols<3>();
+  if (!is_rotation(R, 1e-4)) {
+    throw file.error(key, "its first three columns are not a rotation matrix");
+  }
+  return make_pose(nearest_rotation(R), T.col(3));
+}
+
+Pose read_pose(const KeyValueFile& file, const Pose& T_right_reference) {
+  const Pose T_laser_imu = read_transform(file, spelling(file, "Tr_imu_velo", "Tr_imu_to_velo"));
+  const Pose T_camera_laser = read_transform(file, spelling(file, "Tr_velo_cam", "Tr_velo_to_cam"));
+  const Eigen::Matrix3d R_reference_camera =
+      nearest_rotation(read_kitti_rotation(file, spelling(file, "R_rect", "R0_rect")));
+  return T_right_reference * make_pose(R_reference_camera, Eigen::Vector3d::Zero()) *
+         T_camera_laser * T_laser_imu;
+}
+
+constexpr const char* kCamerasFile = "calib_cam_to_cam.txt";
+
+/// Whether the day's files that lead to the INS lie beside the cameras' one; one is enough, so that
+/// a missing other is complained about.
+bool leads_to_imu(const path& cameras_file) {
+  const path folder = cameras_file.parent_path();
+  return cameras_file.filename() == kCamerasFile &&
+         (exists(folder / "calib_velo_to_cam.txt") || exists(folder / "calib_imu_to_velo.txt"));
+}
+
+}  // namespace
+
+RigDescription read_kitti_raw_rig(const path& day_folder_or_file, KittiPair pair) {
+  const path cameras_file =
+      is_directory(day_folder_or_file) ? day_folder_or_file / kCamerasFile : day_folder_or_file;
+  const KeyValueFile cameras(cameras_file);
+  const cv::Size size_px = read_pair_size_px(cameras, pair);
+  if (!leads_to_imu(cameras_file)) {
+    const int left = left_camera(pair);
+    const KittiProjections projections = read_kitti_projections(
+        cameras, "P_rect_0" + std::to_string(left), "P_rect_0" + std::to_string(left + 1));
+    return rectified_rig(size_px,
+                         projections.pair,
+                         make_pose(R_body_camera(Facing::kForward), Eigen::Vector3d::Zero()));
+  }
+  const KittiCalibration calibration = read_kitti_raw_calibration(cameras_file.parent_path(), pair);
+  RigDescription rig = rectified_rig(size_px, calibration.pair, calibration.T_body_right());
+  rig.T_body_imu = Pose::Identity();
+  return rig;
+}
+
+RigDescription read_kitti_tracking_rig(const path& file, std::optional<cv::Size> size_px) {
+  const KeyValueFile values(file);
+  const KittiProjections projections = read_kitti_projections(values, "P2", "P3");
+  const Pose T_right_imu = read_pose(values, projections.T_right_reference);
+  if (!size_px) {
+    throw input_error(file, "the size of the images is not in this file; give it with --size WxH");
+  }
+  RigDescription rig = rectified_rig(*size_px, projections.pair, T_right_imu.inverse());
+  rig.T_body_imu = Pose::Identity();
+  return rig;
+}
+
+}  // namespace skyhalo
