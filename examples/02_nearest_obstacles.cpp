@@ -14,7 +14,9 @@ int main() {
   Eigen::Matrix3d R_body_camera;
   R_body_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const skyhalo::PairGeometry pair{
-      .model = {.focal_px = 300, .principal_u_px = 160, .principal_v_px = 60, .baseline_m = 0.2},
+      .model =
+          skyhalo::PinholePair{
+              .focal_px = 300, .principal_u_px = 160, .principal_v_px = 60, .baseline_m = 0.2},
       .T_body_camera = skyhalo::make_pose(R_body_camera, Eigen::Vector3d::Zero()),
       .max_range_m = 30};
 

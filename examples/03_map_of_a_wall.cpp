@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "skyhalo/camera/pinhole_pair.hpp"
 #include "skyhalo/io/map_file.hpp"
 #include "skyhalo/io/ply.hpp"
 #include "skyhalo/map/integrate.hpp"

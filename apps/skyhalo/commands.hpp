@@ -9,5 +9,8 @@ void add_demo(CLI::App& program);
 void add_run(CLI::App& program);
 void add_evaluate(CLI::App& program);
 void add_config(CLI::App& program);
+void add_sensor_model(CLI::App& program);
+void add_rectify(CLI::App& program);
+void add_rig(CLI::App& program);
 
 }  // namespace skyhalo::app

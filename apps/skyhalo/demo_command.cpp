@@ -31,11 +31,11 @@ StereoPair aloe_pair() {
   R_body_camera << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   return {.name = "aloe",
           .image_size_px = {},
-          .model = {.focal_px = 3740.0,
-                    .principal_u_px = 640.5,
-                    .principal_v_px = 554.5,
-                    .baseline_m = 0.160,
-                    .disparity_offset_px = 270.0},
+          .model = PinholePair{.focal_px = 3740.0,
+                               .principal_u_px = 640.5,
+                               .principal_v_px = 554.5,
+                               .baseline_m = 0.160,
+                               .disparity_offset_px = 270.0},
           .T_body_camera = make_pose(R_body_camera, Eigen::Vector3d::Zero()),
           .masks_px = {}};
 }

@@ -163,7 +163,7 @@ void evaluate(const EvaluateOptions& options) {
   config.detector.map.voxel_m =
       options.voxel_m > 0.0 ? options.voxel_m : config.detector.map.voxel_m;
   const ThreadLimit limit(options.common.threads);
-  const auto drive = open_source(options.source, config.dataset);
+  const auto drive = open_drive(options.source, config.dataset);
   const TrackLabels labels = read_labels(options, config, drive->frame_count());
   const FrameRange range = parse_frames(options.frames, drive->frame_count());
   const Eigen::AlignedBox3d bounds =

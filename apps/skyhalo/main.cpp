@@ -48,6 +48,9 @@ int run(int argc, char** argv) {
   skyhalo::app::add_run(program);
   skyhalo::app::add_evaluate(program);
   skyhalo::app::add_config(program);
+  skyhalo::app::add_sensor_model(program);
+  skyhalo::app::add_rectify(program);
+  skyhalo::app::add_rig(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -69,7 +69,7 @@ std::string describe(const nlohmann::json& summary, const std::vector<StageTimes
 void run(const RunOptions& options) {
   const Config config = load_config(options.common);
   const ThreadLimit limit(options.common.threads);
-  const auto source = open_source(options.source, config.dataset);
+  const auto source = open_recording(options.source, config.dataset);
   const FrameRange range = parse_frames(options.frames, source->frame_count());
   OutputFolder out(options.out);
   ObstacleDetector detector(
@@ -111,6 +111,7 @@ void add_run(CLI::App& program) {
       "detection and mapping over a recording\n"
       "writes summary.json, map.ply (occupied cells), map.ot (OctoMap) and trajectory.tum");
   add_source_options(*command, options->source);
+  add_rig_option(*command, options->source);
   command
       ->add_option("--map", options->map, "kind of map: global (fixed bounds, follows the drive)")
       ->check(CLI::IsMember({"global"}))

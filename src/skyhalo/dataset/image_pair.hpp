@@ -6,12 +6,13 @@
 
 namespace skyhalo {
 
-/// One rectified pair of image files as a recording of one frame, taken by a body at rest in the
+/// One pair of image files as a recording of one frame, taken by a body at rest in the
 /// origin.
 class ImagePairSource final : public FrameSource {
  public:
-  /// Reads both images. `pair.image_size_px` is taken from them; the time stamp is the epoch.
-  /// Throws `Error` (input) naming the file.
+  /// Reads both images. An empty `pair.image_size_px` is taken from them; the time stamp is the
+  /// epoch. Throws `Error` (input) naming the file when one cannot be read or has another size than
+  /// the pair's camera gives.
   ImagePairSource(const std::filesystem::path& left,
                   const std::filesystem::path& right,
                   StereoPair pair);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/dataset/kitti_oxts.hpp"
@@ -58,7 +59,9 @@ bool is_kitti_raw_drive(const fs::path& folder) {
          (fs::is_directory(folder / image_folder(0)) || fs::is_directory(folder / image_folder(2)));
 }
 
-KittiRawDrive::KittiRawDrive(const fs::path& folder, const DatasetConfig& config)
+KittiRawDrive::KittiRawDrive(const fs::path& folder,
+                             const DatasetConfig& config,
+                             std::optional<StereoRig> rig)
     : folder_(fs::absolute(folder).lexically_normal()),
       cameras_(choose_pair(folder_, config.cameras)) {
   if (folder_.filename().empty()) {  // the path ended in a slash
@@ -86,12 +89,23 @@ KittiRawDrive::KittiRawDrive(const fs::path& folder, const DatasetConfig& config
     }
   }
   poses_ = read_poses(folder_, stamps_.size());
+  if (rig) {
+    use_rig(*std::move(rig));
+    return;
+  }
   const cv::Size size = read_image(image_file(left + 1, 0)).size();
   rig_.pairs.push_back({.name = "front",
                         .image_size_px = size,
                         .model = calibration_.pair,
                         .T_body_camera = calibration_.T_body_right(),
                         .masks_px = {}});
+}
+
+void KittiRawDrive::use_rig(StereoRig rig) {
+  if (rig.pairs.size() != 1) {
+    throw Error(ErrorKind::kInput, "rig: expected one pair for the two cameras of a KITTI drive");
+  }
+  rig_ = std::move(rig);
 }
 
 Timestamp KittiRawDrive::stamp(int frame) const {
@@ -108,14 +122,15 @@ FrameSet KittiRawDrive::read(int frame) const {
   const int left = left_camera(cameras_);
   images.left = read_image(image_file(left, frame));
   images.right = read_image(image_file(left + 1, frame));
-  const cv::Size size = rig_.pairs.front().image_size_px;
+  const StereoPair& pair = rig_.pairs.front();
   for (const int camera : {left, left + 1}) {
     const cv::Mat& image = camera == left ? images.left : images.right;
+    const cv::Size size = camera == left ? left_image_size_px(pair) : right_image_size_px(pair);
     if (image.size() != size) {
       throw input_error(image_file(camera, frame),
                         "has " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
                             " pixels, expected " + std::to_string(size.width) + "x" +
-                            std::to_string(size.height) + " like the first image");
+                            std::to_string(size.height) + " like the first image or the rig file");
     }
   }
   return frames;

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "skyhalo/calibration/kitti_calibration.hpp"
 #include "skyhalo/config/config.hpp"
 #include "skyhalo/dataset/frame_source.hpp"
-#include "skyhalo/dataset/kitti_calibration.hpp"
 #include "skyhalo/dataset/laser_source.hpp"
 
 namespace skyhalo {
@@ -20,7 +20,10 @@ class KittiRawDrive final : public FrameSource, public LaserSource {
  public:
   /// Reads calibration, time stamps and poses, and sees that no image of the drive is missing.
   /// Throws `Error` (input) naming file and line.
-  KittiRawDrive(const std::filesystem::path& folder, const DatasetConfig& config);
+  /// With a `rig`, its one pair takes the place of the calibration's for the images.
+  KittiRawDrive(const std::filesystem::path& folder,
+                const DatasetConfig& config,
+                std::optional<StereoRig> rig = std::nullopt);
 
   [[nodiscard]] std::string name() const override { return name_; }
 
@@ -41,6 +44,7 @@ class KittiRawDrive final : public FrameSource, public LaserSource {
   [[nodiscard]] Pose T_annotation_laser() const override { return calibration_.T_reference_laser; }
 
  private:
+  void use_rig(StereoRig rig);
   [[nodiscard]] std::filesystem::path image_file(int camera, int frame) const;
 
   std::filesystem::path folder_;
