@@ -1,4 +1,4 @@
-#include "skyhalo/dataset/key_value_file.hpp"
+#include "skyhalo/calibration/key_value_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

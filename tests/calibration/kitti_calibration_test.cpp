@@ -1,4 +1,4 @@
-#include "skyhalo/dataset/kitti_calibration.hpp"
+#include "skyhalo/calibration/kitti_calibration.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ using testing::texture;
 StereoPair some_pair() {
   StereoPair pair;
   pair.name = "wing";
-  pair.model = {
+  pair.model = PinholePair{
       .focal_px = 100.0, .principal_u_px = 16.0, .principal_v_px = 12.0, .baseline_m = 0.5};
   return pair;
 }
@@ -40,7 +40,7 @@ TEST(ImagePairTest, IsARecordingOfOneFrameAtRest) {
   EXPECT_TRUE(source.T_map_body(0).isApprox(Pose::Identity()));
   ASSERT_EQ(source.rig().pairs.size(), 1U);
   EXPECT_EQ(source.rig().pairs[0].image_size_px, cv::Size(32, 24));
-  EXPECT_EQ(source.rig().pairs[0].model.focal_px, 100.0);
+  EXPECT_EQ(std::get<PinholePair>(source.rig().pairs[0].model).focal_px, 100.0);
   const FrameSet frames = source.read(0);
   ASSERT_EQ(frames.pairs.size(), 1U);
   EXPECT_EQ(cv::norm(frames.pairs[0].left, left, cv::NORM_INF), 0.0);

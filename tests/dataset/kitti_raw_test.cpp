@@ -94,8 +94,8 @@ TEST(KittiRawTest, TheRigIsTheCalibratedPair) {
   const StereoPair& pair = drive.rig().pairs[0];
   EXPECT_FALSE(pair.name.empty());
   EXPECT_EQ(pair.image_size_px, cv::Size(320, 96));
-  EXPECT_EQ(pair.model.focal_px, 256.0);
-  EXPECT_NEAR(pair.model.baseline_m, 0.5, 1e-9);
+  EXPECT_EQ(std::get<PinholePair>(pair.model).focal_px, 256.0);
+  EXPECT_NEAR(std::get<PinholePair>(pair.model).baseline_m, 0.5, 1e-9);
   // Scanner at (0.75, 0, 0.5), left camera at (0.25, 0.25, -0.125) of it, the right one 0.5 m to
   // the right.
   expect_point(pair.T_body_camera.translation(), {1.0, -0.25, 0.375});
@@ -217,8 +217,8 @@ TEST(KittiRawSystem, ARecordedDriveOpens) {
   const KittiRawDrive drive(testing::recorded_drive(), kAuto);
   ASSERT_GT(drive.frame_count(), 10);
   // KITTI's grey pair: f = 721.5377, B = 0.537 m; frames come at 10 Hz; the car drives ahead.
-  EXPECT_NEAR(drive.rig().pairs[0].model.focal_px, 721.5377, 1e-3);
-  EXPECT_NEAR(drive.rig().pairs[0].model.baseline_m, 0.537, 0.01);
+  EXPECT_NEAR(std::get<PinholePair>(drive.rig().pairs[0].model).focal_px, 721.5377, 1e-3);
+  EXPECT_NEAR(std::get<PinholePair>(drive.rig().pairs[0].model).baseline_m, 0.537, 0.01);
   EXPECT_NEAR(static_cast<double>((drive.stamp(10) - drive.stamp(0)).count()) * 1e-9, 1.035, 0.06);
   EXPECT_GT(drive.T_map_body(10).translation().x(), 1.0);
   EXPECT_EQ(drive.read(0).pairs[0].left.size(), drive.rig().pairs[0].image_size_px);

@@ -1,5 +1,5 @@
 #include "fuzz_file.hpp"
-#include "skyhalo/dataset/key_value_file.hpp"
+#include "skyhalo/calibration/key_value_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   return skyhalo::fuzz::as_file(bytes, size, [](const std::filesystem::path& file) {

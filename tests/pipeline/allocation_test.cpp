@@ -114,11 +114,11 @@ TEST(AllocationTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAndMap) {
                                                     .phi_min_rad = rad_from_deg(-50.0),
                                                     .phi_max_rad = rad_from_deg(50.0),
                                                     .step_rad = rad_from_deg(2.0)});
-  const PairGeometry pair{.model = {.focal_px = 80.0,
-                                    .principal_u_px = 39.5,
-                                    .principal_v_px = 29.5,
-                                    .baseline_m = 0.5,
-                                    .disparity_offset_px = 0.0},
+  const PairGeometry pair{.model = PinholePair{.focal_px = 80.0,
+                                               .principal_u_px = 39.5,
+                                               .principal_v_px = 29.5,
+                                               .baseline_m = 0.5,
+                                               .disparity_offset_px = 0.0},
                           .T_body_camera = forward_camera(),
                           .max_range_m = 30.0};
   RangeModel model;

@@ -24,7 +24,7 @@ GridGeometry coarse_geometry() {
 
 RangeModel range_model() {
   RangeModel model;
-  model.pair = {.focal_px = 400.0, .baseline_m = 0.5};
+  model.pair = PinholePair{.focal_px = 400.0, .baseline_m = 0.5};
   model.depth = {.sigma_threshold_m = 0.5, .sigma_factor = 3.0, .min_range_m = 0.5};
   return model;
 }

@@ -41,11 +41,11 @@ StereoPair pair_of_rig(const std::string& name, double yaw_deg) {
   StereoPair pair;
   pair.name = name;
   pair.image_size_px = kImageSize;
-  pair.model = {.focal_px = 210.0,
-                .principal_u_px = 159.5,
-                .principal_v_px = 119.5,
-                .baseline_m = 0.5,
-                .disparity_offset_px = 0.0};
+  pair.model = PinholePair{.focal_px = 210.0,
+                           .principal_u_px = 159.5,
+                           .principal_v_px = 119.5,
+                           .baseline_m = 0.5,
+                           .disparity_offset_px = 0.0};
   pair.T_body_camera = turned_camera(rad_from_deg(yaw_deg));
   return pair;
 }

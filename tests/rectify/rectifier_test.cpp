@@ -18,17 +18,25 @@ cv::Mat plain(int type, const cv::Size& size, const cv::Scalar& value) {
   return {size, type, value};
 }
 
+/// Brings images of this size, which come rectified, to the size that is matched.
+Rectifier rectifier_of(const cv::Size& size, int factor) {
+  StereoPair pair;
+  pair.image_size_px = size;
+  return Rectifier(pair, factor);
+}
+
 StereoImages both(const cv::Mat& image) {
   return {image, image};
 }
 
 std::string refusal(const StereoImages& images, int factor = 1) {
-  return message_of([&] { (void)Rectifier(factor).rectify(images); });
+  const cv::Size size = images.left.empty() ? cv::Size(8, 6) : images.left.size();
+  return message_of([&] { (void)rectifier_of(size, factor).rectify(images); });
 }
 
 TEST(RectifierTest, FactorOneKeepsGreyImages) {
   const auto [left, right] = testing::textured_pair({31, 17}, 3, 1);
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({31, 17}, 1);
   const RectifiedPair& pair = rectifier.rectify({left, right});
   EXPECT_EQ(cv::norm(pair.left, left, cv::NORM_INF), 0.0);
   EXPECT_EQ(cv::norm(pair.right, right, cv::NORM_INF), 0.0);
@@ -51,7 +59,7 @@ TEST(RectifierTest, HalvesByTheMeansOfTheBlocks) {
                            3,
                            255,
                            255);
-  Rectifier rectifier(2);
+  Rectifier rectifier = rectifier_of({4, 2}, 2);
   const RectifiedPair& pair = rectifier.rectify({left, right});
   ASSERT_EQ(pair.left.size(), cv::Size(2, 1));
   ASSERT_EQ(pair.right.size(), cv::Size(2, 1));
@@ -71,7 +79,7 @@ TEST(RectifierTest, ShrinksByThree) {
                            7,
                            8,
                            9);
-  Rectifier rectifier(3);
+  Rectifier rectifier = rectifier_of({3, 3}, 3);
   const RectifiedPair& pair = rectifier.rectify(both(image));
   ASSERT_EQ(pair.left.size(), cv::Size(1, 1));
   EXPECT_EQ(pair.left(0, 0), 5);  // 45 / 9
@@ -94,7 +102,7 @@ TEST(RectifierTest, LeavesOutWhatIsNoWholeBlock) {
                            255,
                            255,
                            255);
-  Rectifier rectifier(2);
+  Rectifier rectifier = rectifier_of({5, 3}, 2);
   const RectifiedPair& pair = rectifier.rectify(both(image));
   ASSERT_EQ(pair.left.size(), cv::Size(2, 1));
   EXPECT_EQ(pair.left(0, 0), 25);
@@ -103,7 +111,7 @@ TEST(RectifierTest, LeavesOutWhatIsNoWholeBlock) {
 
 TEST(RectifierTest, CutsEveryOddSizeToWholeBlocks) {
   for (const cv::Size& size : {cv::Size(7, 5), cv::Size(8, 5), cv::Size(7, 4), cv::Size(9, 11)}) {
-    Rectifier rectifier(4);
+    Rectifier rectifier = rectifier_of(size, 4);
     const RectifiedPair& pair = rectifier.rectify(both(plain(CV_8UC1, size, 9)));
     EXPECT_EQ(pair.left.size(), cv::Size(size.width / 4, size.height / 4));
     EXPECT_EQ(pair.right.size(), pair.left.size());
@@ -112,7 +120,7 @@ TEST(RectifierTest, CutsEveryOddSizeToWholeBlocks) {
 
 TEST(RectifierTest, TakesColourAsGrey) {
   // Grey = 0.299 R + 0.587 G + 0.114 B, in the order blue, green, red.
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({4, 3}, 1);
   const cv::Size size(4, 3);
   EXPECT_EQ(rectifier.rectify(both(plain(CV_8UC3, size, {100, 0, 0}))).left(1, 1), 11);
   EXPECT_EQ(rectifier.rectify(both(plain(CV_8UC3, size, {0, 100, 0}))).left(1, 1), 59);
@@ -121,14 +129,14 @@ TEST(RectifierTest, TakesColourAsGrey) {
 }
 
 TEST(RectifierTest, IgnoresTheAlphaChannel) {
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({4, 3}, 1);
   const cv::Size size(4, 3);
   EXPECT_EQ(rectifier.rectify(both(plain(CV_8UC4, size, {0, 0, 100, 0}))).left(1, 1), 30);
   EXPECT_EQ(rectifier.rectify(both(plain(CV_8UC4, size, {0, 0, 100, 255}))).left(1, 1), 30);
 }
 
 TEST(RectifierTest, BringsSixteenBitsToEight) {
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({4, 3}, 1);
   const cv::Size size(4, 3);
   EXPECT_EQ(rectifier.rectify(both(plain(CV_16UC1, size, 25600))).left(0, 0), 100);  // / 256
   EXPECT_EQ(rectifier.rectify(both(plain(CV_16UC1, size, 0))).left(0, 0), 0);
@@ -136,7 +144,7 @@ TEST(RectifierTest, BringsSixteenBitsToEight) {
 }
 
 TEST(RectifierTest, BringsSixteenBitColourToGrey) {
-  Rectifier rectifier(2);
+  Rectifier rectifier = rectifier_of({6, 4}, 2);
   const RectifiedPair& pair =
       rectifier.rectify(both(plain(CV_16UC3, {6, 4}, {12800, 12800, 12800})));
   ASSERT_EQ(pair.left.size(), cv::Size(3, 2));
@@ -144,7 +152,7 @@ TEST(RectifierTest, BringsSixteenBitColourToGrey) {
 }
 
 TEST(RectifierTest, TheTwoImagesMayDifferInKind) {
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({4, 3}, 1);
   const cv::Size size(4, 3);
   const RectifiedPair& pair =
       rectifier.rectify({plain(CV_16UC1, size, 25600), plain(CV_8UC3, size, {40, 40, 40})});
@@ -158,30 +166,30 @@ bool is_plain(const cv::Mat1b& image, const cv::Size& size, int value) {
 }
 
 TEST(RectifierTest, ServesFrameAfterFrame) {
-  Rectifier rectifier(2);
+  Rectifier rectifier = rectifier_of({8, 6}, 2);
   for (int frame = 0; frame < 5; ++frame) {
     const int value = 10 * frame;
     const int type = frame % 2 == 0 ? CV_8UC1 : CV_8UC3;
-    const cv::Size size(8 + 2 * frame, 6);
+    const cv::Size size(8, 6);
     const RectifiedPair& pair = rectifier.rectify(
         {plain(type, size, cv::Scalar::all(value)), plain(type, size, cv::Scalar::all(value + 1))});
-    EXPECT_TRUE(is_plain(pair.left, {4 + frame, 3}, value)) << frame;
-    EXPECT_TRUE(is_plain(pair.right, {4 + frame, 3}, value + 1)) << frame;
+    EXPECT_TRUE(is_plain(pair.left, {4, 3}, value)) << frame;
+    EXPECT_TRUE(is_plain(pair.right, {4, 3}, value + 1)) << frame;
   }
 }
 
 TEST(RectifierTest, DoesNotTouchItsInput) {
   const cv::Mat1b image = testing::texture({20, 10}, 4);
   const cv::Mat1b before = image.clone();
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({20, 10}, 1);
   const RectifiedPair& pair = rectifier.rectify(both(image));
   EXPECT_EQ(cv::norm(image, before, cv::NORM_INF), 0.0);
   EXPECT_NE(pair.left.data, image.data);
 }
 
 TEST(RectifierTest, RefusesAFactorBelowOne) {
-  EXPECT_THAT(message_of([] { (void)Rectifier(0); }), HasSubstr("matching.downscale"));
-  EXPECT_THAT(message_of([] { (void)Rectifier(-2); }), HasSubstr("matching.downscale"));
+  EXPECT_THAT(message_of([] { (void)rectifier_of({8, 6}, 0); }), HasSubstr("matching.downscale"));
+  EXPECT_THAT(message_of([] { (void)rectifier_of({8, 6}, -2); }), HasSubstr("matching.downscale"));
 }
 
 TEST(RectifierTest, RefusesImagesOfTwoSizes) {
@@ -212,7 +220,7 @@ TEST(RectifierTest, RefusesImagesSmallerThanABlock) {
 }
 
 TEST(RectifierTest, WorksOnAfterAnError) {
-  Rectifier rectifier(1);
+  Rectifier rectifier = rectifier_of({4, 4}, 1);
   (void)message_of([&] { (void)rectifier.rectify(both(plain(CV_32FC1, {4, 4}, 1))); });
   EXPECT_EQ(rectifier.rectify(both(plain(CV_8UC1, {4, 4}, 7))).left(0, 0), 7);
 }
@@ -221,7 +229,7 @@ TEST(RectifierProperty, EveryPixelIsTheMeanOfItsBlock) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const int factor = 1 + static_cast<int>(seed % 4);
     const cv::Mat1b image = testing::texture({53, 41}, seed);
-    Rectifier rectifier(factor);
+    Rectifier rectifier = rectifier_of({53, 41}, factor);
     const RectifiedPair& pair = rectifier.rectify(both(image));
     for (int v = 0; v < pair.left.rows; ++v) {
       for (int u = 0; u < pair.left.cols; ++u) {

@@ -30,11 +30,11 @@ Pose forward_camera() {
 
 /// 100 x 80 pixels, f 100 px, baseline 0.5 m: disparity 10 is 5 m away.
 PairGeometry example_pair() {
-  return {.model = {.focal_px = 100.0,
-                    .principal_u_px = 49.5,
-                    .principal_v_px = 39.5,
-                    .baseline_m = 0.5,
-                    .disparity_offset_px = 0.0},
+  return {.model = PinholePair{.focal_px = 100.0,
+                               .principal_u_px = 49.5,
+                               .principal_v_px = 39.5,
+                               .baseline_m = 0.5,
+                               .disparity_offset_px = 0.0},
           .T_body_camera = forward_camera(),
           .max_range_m = 30.0};
 }
@@ -109,8 +109,8 @@ TEST(AccumulateTest, CountsFromTheBodyOrigin) {
   // The camera sits 1 m ahead of the body's origin: the plane is 6 m away.
   PairGeometry pair = example_pair();
   pair.T_body_camera.translation() = Eigen::Vector3d(1.0, 0.0, 0.0);
-  pair.model.principal_u_px = 50.0;
-  pair.model.principal_v_px = 40.0;
+  std::get<PinholePair>(pair.model).principal_u_px = 50.0;
+  std::get<PinholePair>(pair.model).principal_v_px = 40.0;
   cv::Mat1f disparity = plain_disparity(kNan);
   disparity(41, 49) = 10.0F;  // slightly left and below
   SphericalGrid grid = thesis_grid();
@@ -132,7 +132,7 @@ TEST(AccumulateTest, IgnoresPixelsWithoutADisparity) {
 
 TEST(AccumulateTest, TheOffsetDecidesWhatIsADisparity) {
   PairGeometry pair = example_pair();
-  pair.model.disparity_offset_px = 4.0;
+  std::get<PinholePair>(pair.model).disparity_offset_px = 4.0;
   SphericalGrid grid = thesis_grid();
   EXPECT_EQ(accumulate(plain_disparity(-4.0F), pair, grid).measured, 0);
   EXPECT_EQ(accumulate(plain_disparity(6.0F), pair, grid).used, 8000);
@@ -207,12 +207,16 @@ struct Scene {
   PairGeometry pair;
 };
 
+PinholePair& pinhole(PairGeometry& pair) {
+  return std::get<PinholePair>(pair.model);
+}
+
 Scene random_scene(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   Scene scene{cv::Mat1f(40, 60), example_pair()};
-  scene.pair.model.focal_px = 20.0 + 60.0 * unit(random);
-  scene.pair.model.principal_u_px = 60.0 * unit(random);
-  scene.pair.model.principal_v_px = 40.0 * unit(random);
+  pinhole(scene.pair).focal_px = 20.0 + 60.0 * unit(random);
+  pinhole(scene.pair).principal_u_px = 60.0 * unit(random);
+  pinhole(scene.pair).principal_v_px = 40.0 * unit(random);
   const Eigen::Vector3d axis = Eigen::Vector3d(unit(random), unit(random), 0.1).normalized();
   scene.pair.T_body_camera =
       make_pose((Eigen::AngleAxisd(0.5 * unit(random), axis) * forward_camera().linear()).eval(),
@@ -226,7 +230,7 @@ Scene random_scene(std::mt19937& random) {
 
 /// The points of a scene within the range limit, body frame, one by one.
 std::vector<std::array<double, 3>> naive_points(const Scene& scene) {
-  const PinholePair& model = scene.pair.model;
+  const auto& model = std::get<PinholePair>(scene.pair.model);
   const reference::NaivePinholePair naive{
       model.baseline_m, model.focal_px, model.principal_u_px, model.principal_v_px};
   std::vector<std::array<double, 3>> points;

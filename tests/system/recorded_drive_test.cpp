@@ -53,10 +53,12 @@ TEST(RecordedDriveSystem, CalibrationPutsLaserPointsOnTheMeasuredDisparity) {
   SKYHALO_SKIP_WITHOUT(recorded_drive());
   const KittiRawDrive drive(recorded_drive(), {});
   const StereoPair& pair = drive.rig().pairs.front();
-  EXPECT_NEAR(pair.model.baseline_m, 0.5372, 1e-4);  // as the data's description says
-  EXPECT_NEAR(pair.model.focal_px, 721.54, 0.01);
+  EXPECT_NEAR(std::get<PinholePair>(pair.model).baseline_m,
+              0.5372,
+              1e-4);  // as the data's description says
+  EXPECT_NEAR(std::get<PinholePair>(pair.model).focal_px, 721.54, 0.01);
 
-  Rectifier rectifier(1);
+  Rectifier rectifier(pair, 1);
   const RectifiedPair& images = rectifier.rectify(drive.read(0).pairs.front());
   Matcher matcher({.max_disparity_px = 128});
   cv::Mat1f disparity;

@@ -103,11 +103,13 @@ Intrinsics read_matrix(const OpencvEntry& entry) {
 Lens read_lens(const OpencvStorage& storage, Keys matrix_keys, Keys distortion_keys) {
   const OpencvEntry matrix = storage.at(matrix_keys);
   const OpencvEntry distortion = storage.at(distortion_keys);
-  return lens_from({.kind = read_lens_kind(storage),
-                    .intrinsics = read_matrix(matrix),
-                    .distortion = distortion.numbers(),
-                    .intrinsics_at = error_at(matrix),
-                    .distortion_at = error_at(distortion)});
+  LensInput input;
+  input.kind = read_lens_kind(storage);
+  input.intrinsics = read_matrix(matrix);
+  input.distortion = distortion.numbers();
+  input.intrinsics_at = error_at(matrix);
+  input.distortion_at = error_at(distortion);
+  return lens_from(input);
 }
 
 int read_length_px(const OpencvEntry& entry, double value) {

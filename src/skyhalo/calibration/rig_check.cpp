@@ -11,12 +11,6 @@
 namespace skyhalo {
 namespace {
 
-bool sees(const RawCamera& camera, const Eigen::Matrix3d& R_raw_cam, const Eigen::Vector3d& ray) {
-  const std::optional<Eigen::Vector2d> pixel = project(camera.lens, R_raw_cam * ray);
-  return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 &&
-         pixel->x() <= camera.size_px.width - 1.0 && pixel->y() <= camera.size_px.height - 1.0;
-}
-
 /// Share of the rectified pixels that both raw cameras see, on a raster of 64 x 64.
 double seen_share(const StereoPair& pair) {
   if (!pair.raw) {
@@ -29,8 +23,8 @@ double seen_share(const StereoPair& pair) {
       const Eigen::Vector3d ray = ray_of(pair.model,
                                          (col + 0.5) / kRaster * pair.image_size_px.width - 0.5,
                                          (row + 0.5) / kRaster * pair.image_size_px.height - 0.5);
-      seen += sees(pair.raw->left, pair.raw->R_left_cam, ray) &&
-                      sees(pair.raw->right, pair.raw->R_right_cam, ray)
+      seen += sees(pair.raw->left, pair.raw->R_left_cam * ray) &&
+                      sees(pair.raw->right, pair.raw->R_right_cam * ray)
                   ? 1
                   : 0;
     }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/camera/common_orientation.hpp"
 #include "skyhalo/camera/monotone.hpp"
 #include "skyhalo/geometry/angle.hpp"
 
@@ -42,72 +43,34 @@ std::string degrees(double angle_rad) {
   return text.substr(0, text.find('.') + 2) + " degrees";
 }
 
-/// The common orientation (Fusiello 2000, with z between the two axes): rotations from `cam`.
-struct Orientation {
-  Eigen::Matrix3d R_left_cam;
-  Eigen::Matrix3d R_right_cam;
-  double baseline_m;
+/// How far an image reaches to both sides of the optical axis along one direction.
+struct Reach {
+  double before;  ///< against the direction, positive
+  double after;   ///< along it
 };
 
-Orientation orient(const Pose& T_right_left) {
-  const Eigen::Vector3d to_left = T_right_left.translation();
-  const double baseline_m = to_left.norm();
-  if (!(baseline_m > 1e-9) || !std::isfinite(baseline_m)) {
-    refuse("T_right_left: the baseline is zero; expected two cameras side by side");
-  }
-  const Eigen::Vector3d x = -to_left / baseline_m;
-  const Eigen::Vector3d left_axis = T_right_left.linear().col(2);
-  const Eigen::Vector3d left_rows = T_right_left.linear().col(0);
-  if (!(x.x() > 0.5) || !(x.dot(left_rows) > 0.5)) {
-    refuse(
-        "T_right_left: the left camera does not stand to the left of the right one; left and right "
-        "are swapped, or the extrinsics are inverted");
-  }
-  const Eigen::Vector3d between = left_axis + Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d z = (between - x * x.dot(between)).normalized();
-  Eigen::Matrix3d R_right_cam;
-  R_right_cam << x, z.cross(x), z;
-  if (!R_right_cam.allFinite() || !(left_axis.z() > 0.0)) {
-    refuse("T_right_left: the two cameras do not look the same way");
-  }
-  return {T_right_left.linear().transpose() * R_right_cam, R_right_cam, baseline_m};
-}
-
-bool sees(const RawCamera& camera, const Eigen::Vector3d& ray) noexcept {
-  const std::optional<Eigen::Vector2d> pixel = project(camera.lens, ray);
-  return pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 &&
-         pixel->x() <= camera.size_px.width - 1.0 && pixel->y() <= camera.size_px.height - 1.0;
-}
-
-/// The angles from the axis to the four sides, each positive outwards.
-struct Extent {
-  double left_rad;
-  double right_rad;
-  double up_rad;
-  double down_rad;
-};
-
-Extent seen_by_both(const RawPair& raw, const Orientation& turned, const FieldLimits& limits) {
-  const auto reach = [&](const Eigen::Vector3d& outwards, double limit_rad) {
+/// The angles (rad) to which both raw cameras see along +-`outwards`.
+Reach seen_by_both(const RawPair& raw,
+                   const CommonOrientation& turned,
+                   const Eigen::Vector3d& outwards,
+                   double limit_rad) {
+  const auto reach = [&](const Eigen::Vector3d& way) {
     const auto both_see = [&](double angle_rad) {
       const Eigen::Vector3d ray =
-          std::cos(angle_rad) * Eigen::Vector3d::UnitZ() + std::sin(angle_rad) * outwards;
+          std::cos(angle_rad) * Eigen::Vector3d::UnitZ() + std::sin(angle_rad) * way;
       return sees(raw.left, turned.R_left_cam * ray) && sees(raw.right, turned.R_right_cam * ray);
     };
     return holds_until(both_see, kStep, limit_rad);
   };
-  const Extent extent{reach(-Eigen::Vector3d::UnitX(), limits.across_rad),
-                      reach(Eigen::Vector3d::UnitX(), limits.across_rad),
-                      reach(-Eigen::Vector3d::UnitY(), limits.upright_rad),
-                      reach(Eigen::Vector3d::UnitY(), limits.upright_rad)};
-  if (std::min({extent.left_rad, extent.right_rad, extent.up_rad, extent.down_rad}) < kStep) {
+  const Reach seen{reach(-outwards), reach(outwards)};
+  if (std::min(seen.before, seen.after) < kStep) {
     refuse("T_right_left: the cameras have no field in common around the middle of their axes");
   }
-  return extent;
+  return seen;
 }
 
 /// Raw pixels per radian around the virtual axis, the mean of both cameras: across and upright.
-Eigen::Vector2d raw_density_px(const RawPair& raw, const Orientation& turned) {
+Eigen::Vector2d raw_density_px(const RawPair& raw, const CommonOrientation& turned) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const auto& [camera, R] :
        {std::pair(&raw.left, &turned.R_left_cam), std::pair(&raw.right, &turned.R_right_cam)}) {
@@ -132,14 +95,23 @@ int whole_units(double size_px) {
   return std::max(kLeastSize, static_cast<int>(size_px / kSizeUnit) * kSizeUnit);
 }
 
-/// A side that covers [-before, after] of its coordinate; pixels of `per_px` unless a size is
-/// given.
-Axis cover(double before, double after, double per_px, std::optional<int> size_px) {
-  const double span = before + after;
+/// A side over `reach`; the pixel is `per_px` where no size is given, else made to fit.
+Axis cover(const Reach& reach, double per_px, std::optional<int> size_px) {
+  const double span = reach.before + reach.after;
   const int size = size_px.value_or(whole_units(span / per_px + 1e-6));
   const double step = size_px ? span / size : per_px;
-  const double middle = 0.5 * (after - before);
-  return {step, 0.5 * (size - 1) - middle / step, size};
+  return {step, 0.5 * (size - 1) - 0.5 * (reach.after - reach.before) / step, size};
+}
+
+/// A side around the middle of `reach` whose pixel is settled; as long as the reach where no size
+/// is given.
+Axis extend(const Reach& reach, double per_px, std::optional<int> size_px) {
+  Axis axis = cover(reach, per_px, std::nullopt);
+  if (size_px) {
+    axis.principal_px += 0.5 * (*size_px - axis.size_px);
+    axis.size_px = *size_px;
+  }
+  return axis;
 }
 
 /// A side with an exact field: centred, the pixel made to fit the size.
@@ -169,7 +141,7 @@ void check_inside_lenses(const char* key,
                          double half_rad,
                          const Eigen::Vector3d& outwards,
                          const RawPair& raw,
-                         const Orientation& turned) {
+                         const CommonOrientation& turned) {
   for (const double side : {-1.0, 1.0}) {
     const Eigen::Vector3d ray =
         std::cos(half_rad) * Eigen::Vector3d::UnitZ() + side * std::sin(half_rad) * outwards;
@@ -184,7 +156,7 @@ void check_inside_lenses(const char* key,
   }
 }
 
-void check_wish(const VirtualPairWish& wish, const RawPair& raw, const Orientation& turned) {
+void check_wish(const VirtualPairWish& wish, const RawPair& raw, const CommonOrientation& turned) {
   const FieldLimits limits = limits_of(wish.model);
   check_angle("hfov_deg", wish.hfov_rad, limits.widest_deg);
   check_angle("vfov_deg", wish.vfov_rad, limits.tallest_deg);
@@ -212,64 +184,73 @@ struct Axes {
   Axis upright;
 };
 
-/// Rows and columns of an angular image are independent of each other.
-Axes spherical_axes(const VirtualPairWish& wish,
-                    const Extent& seen,
-                    const Eigen::Vector2d& density) {
-  const auto axis = [](const std::optional<double>& field_rad,
-                       double before,
-                       double after,
-                       double per_px,
-                       std::optional<int> size_px) {
-    return field_rad ? centred(0.5 * *field_rad, per_px, size_px)
-                     : cover(before, after, per_px, size_px);
-  };
-  return {
-      axis(wish.hfov_rad, seen.left_rad, seen.right_rad, 1.0 / density.x(), width_of(wish.size_px)),
-      axis(wish.vfov_rad, seen.up_rad, seen.down_rad, 1.0 / density.y(), height_of(wish.size_px))};
+/// Everything that the sides of an image are chosen by.
+struct Choice {
+  const VirtualPairWish& wish;
+  const RawPair& raw;
+  const CommonOrientation& turned;
+  FieldLimits limits;
+  Eigen::Vector2d density_px;  ///< raw pixels per radian, across and upright
+
+  [[nodiscard]] Reach seen_across() const {
+    return seen_by_both(raw, turned, Eigen::Vector3d::UnitX(), limits.across_rad);
+  }
+
+  [[nodiscard]] Reach seen_upright() const {
+    return seen_by_both(raw, turned, Eigen::Vector3d::UnitY(), limits.upright_rad);
+  }
+};
+
+Reach tangents(const Reach& angles) noexcept {
+  return {std::tan(angles.before), std::tan(angles.after)};
 }
 
-/// A pinhole has one focal length: the first of width, height that is settled decides it.
-Axes pinhole_axes(const VirtualPairWish& wish, const Extent& seen, const Eigen::Vector2d& density) {
-  const double chosen_px = 1.0 / density.mean();
-  const double left = std::tan(seen.left_rad);
-  const double right = std::tan(seen.right_rad);
-  const double up = std::tan(seen.up_rad);
-  const double down = std::tan(seen.down_rad);
-  Axes axes;
-  if (!wish.hfov_rad && wish.vfov_rad) {
-    axes.upright = centred(std::tan(0.5 * *wish.vfov_rad), chosen_px, height_of(wish.size_px));
-    axes.across = cover(left, right, axes.upright.per_px, std::nullopt);
-    if (wish.size_px) {  // the width is the user's, the pixel is settled
-      axes.across.size_px = wish.size_px->width;
-      axes.across.principal_px =
-          0.5 * (wish.size_px->width - 1) - 0.5 * (right - left) / axes.upright.per_px;
-    }
-    return axes;
-  }
-  axes.across = wish.hfov_rad
-                    ? centred(std::tan(0.5 * *wish.hfov_rad), chosen_px, width_of(wish.size_px))
-                    : cover(left, right, chosen_px, width_of(wish.size_px));
-  const double per_px = axes.across.per_px;
+/// Rows and columns of an angular image are independent of each other.
+Axes spherical_axes(const Choice& choice) {
+  const VirtualPairWish& wish = choice.wish;
+  const double across_rad = 1.0 / choice.density_px.x();
+  const double upright_rad = 1.0 / choice.density_px.y();
+  return {wish.hfov_rad ? centred(0.5 * *wish.hfov_rad, across_rad, width_of(wish.size_px))
+                        : cover(choice.seen_across(), across_rad, width_of(wish.size_px)),
+          wish.vfov_rad ? centred(0.5 * *wish.vfov_rad, upright_rad, height_of(wish.size_px))
+                        : cover(choice.seen_upright(), upright_rad, height_of(wish.size_px))};
+}
+
+/// The upright side of a pinhole whose pixel the width has settled.
+Axis upright_of_pinhole(const Choice& choice, double per_px) {
+  const VirtualPairWish& wish = choice.wish;
+  const std::optional<int> height_px = height_of(wish.size_px);
   if (wish.vfov_rad) {
-    const double height = 2.0 * std::tan(0.5 * *wish.vfov_rad) / per_px;
-    const int size = std::max(kLeastSize, static_cast<int>(std::lround(height)));
-    if (wish.size_px && std::abs(wish.size_px->height - height) > 1.0) {
+    const double half = std::tan(0.5 * *wish.vfov_rad);
+    const double fitting_px = 2.0 * half / per_px;
+    if (height_px && std::abs(*height_px - fitting_px) > 1.0) {
       refuse(
           "vfov_deg: does not fit size_px and hfov_deg, as a pinhole's pixels are square; leave "
-          "one of the three out");
+          "one "
+          "of the three out");
     }
-    const int height_px = wish.size_px ? wish.size_px->height : size;
-    axes.upright = {per_px, 0.5 * (height_px - 1), height_px};
-  } else {
-    axes.upright = cover(up, down, per_px, std::nullopt);
-    if (wish.size_px) {
-      const double middle = wish.hfov_rad ? 0.0 : 0.5 * (down - up);
-      axes.upright = {
-          per_px, 0.5 * (wish.size_px->height - 1) - middle / per_px, wish.size_px->height};
-    }
+    const int rounded_px = std::max(kLeastSize, static_cast<int>(std::lround(fitting_px)));
+    return extend({half, half}, per_px, height_px.value_or(rounded_px));
   }
-  return axes;
+  if (wish.hfov_rad && height_px) {
+    return extend({0.0, 0.0}, per_px, height_px);
+  }
+  return extend(tangents(choice.seen_upright()), per_px, height_px);
+}
+
+/// A pinhole has one focal length: of its width and height, a wished field settles it.
+Axes pinhole_axes(const Choice& choice) {
+  const VirtualPairWish& wish = choice.wish;
+  const double chosen = 1.0 / choice.density_px.mean();
+  if (wish.vfov_rad && !wish.hfov_rad) {
+    const Axis upright = centred(std::tan(0.5 * *wish.vfov_rad), chosen, height_of(wish.size_px));
+    return {extend(tangents(choice.seen_across()), upright.per_px, width_of(wish.size_px)),
+            upright};
+  }
+  const Axis across = wish.hfov_rad
+                          ? centred(std::tan(0.5 * *wish.hfov_rad), chosen, width_of(wish.size_px))
+                          : cover(tangents(choice.seen_across()), chosen, width_of(wish.size_px));
+  return {across, upright_of_pinhole(choice, across.per_px)};
 }
 
 PairModel model_of(PairModelKind kind, const Axes& axes, double baseline_m) {
@@ -294,12 +275,11 @@ double field_rad(const PinholePair& pair, double principal_px, int size_px) noex
 }  // namespace
 
 VirtualPair make_virtual_pair(const RawPair& raw, const VirtualPairWish& wish) {
-  const Orientation turned = orient(raw.T_right_left);
+  const CommonOrientation turned = common_orientation(raw.T_right_left);
   check_wish(wish, raw, turned);
-  const Extent seen = seen_by_both(raw, turned, limits_of(wish.model));
-  const Eigen::Vector2d density = raw_density_px(raw, turned);
-  const Axes axes = wish.model == PairModelKind::kPinhole ? pinhole_axes(wish, seen, density)
-                                                          : spherical_axes(wish, seen, density);
+  const Choice choice{wish, raw, turned, limits_of(wish.model), raw_density_px(raw, turned)};
+  const Axes axes =
+      wish.model == PairModelKind::kPinhole ? pinhole_axes(choice) : spherical_axes(choice);
   const cv::Size size(axes.across.size_px, axes.upright.size_px);
   check_size(size);
   return {
