@@ -9,7 +9,7 @@ build_packages="
   libcli11-dev libeigen3-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
   opencv-doc zlib1g-dev"
 test_packages="
-  clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-yaml
+  clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-jsonschema python3-yaml
   libbenchmark-dev libgmock-dev libgtest-dev
   octomap-tools pcl-tools"
 

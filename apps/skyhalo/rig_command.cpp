@@ -42,6 +42,7 @@ struct ImportCommand {
   std::string name;
   std::string model = "auto";
   std::optional<double> hfov_deg;
+  std::optional<double> vfov_deg;
 };
 
 struct CheckCommand {
@@ -101,6 +102,9 @@ void choose_models(const ImportCommand& options, RigDescription& rig) {
       raw->rectify_to.model = spherical ? PairModelKind::kSpherical : PairModelKind::kPinhole;
       if (options.hfov_deg) {
         raw->rectify_to.hfov_rad = rad_from_deg(*options.hfov_deg);
+      }
+      if (options.vfov_deg) {
+        raw->rectify_to.vfov_rad = rad_from_deg(*options.vfov_deg);
       }
     }
   }
@@ -196,6 +200,11 @@ void add_import(CLI::App& rig) {
       ->add_option("--hfov-deg",
                    options->hfov_deg,
                    "width of the rectified image (default: all that is seen)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--vfov-deg",
+                   options->vfov_deg,
+                   "height of the rectified image (default: all that is seen)")
       ->check(CLI::PositiveNumber);
   command->add_option("--size", options->size, "image size, where the files do not say it")
       ->type_name("WxH");
