@@ -1,6 +1,6 @@
 #include "skyhalo/calibration/rig_file.hpp"
 
-#include <cmath>
+#include <array>
 #include <set>
 
 #include "skyhalo/base/error.hpp"
@@ -14,6 +14,10 @@ namespace skyhalo {
 namespace {
 
 constexpr int kLargestImage = 16384;
+
+/// Of pairs of both kinds.
+constexpr std::array<std::string_view, 6> kOptionalKeys{
+    "downscale", "rcrop_px", "masks_px", "min_range_m", "max_range_m", "line_time_s"};
 
 const Eigen::Matrix3d kUnturned = Eigen::Matrix3d::Identity();
 
@@ -181,29 +185,11 @@ class PairReader {
  private:
   std::variant<RawPairDescription, RectifiedPairDescription> read_images() {
     if (const std::optional<YamlValue> rectified = value_.find("rectified")) {
-      value_.refuse_other_keys({"name",
-                                "rectified",
-                                "T_body_camera",
-                                "downscale",
-                                "rcrop_px",
-                                "masks_px",
-                                "min_range_m",
-                                "max_range_m",
-                                "line_time_s"});
+      value_.refuse_other_keys({"name", "rectified", "T_body_camera"}, kOptionalKeys);
       return read_rectified(*rectified);
     }
-    value_.refuse_other_keys({"name",
-                              "left",
-                              "right",
-                              "T_right_left",
-                              "rectify_to",
-                              "T_body_camera",
-                              "downscale",
-                              "rcrop_px",
-                              "masks_px",
-                              "min_range_m",
-                              "max_range_m",
-                              "line_time_s"});
+    value_.refuse_other_keys(
+        {"name", "left", "right", "T_right_left", "rectify_to", "T_body_camera"}, kOptionalKeys);
     if (!value_.find("left") && !value_.find("right")) {
       throw value_.error("left", "this key is missing; expected left and right, or rectified");
     }

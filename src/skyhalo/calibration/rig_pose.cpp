@@ -14,7 +14,7 @@ double angle_rad(const YamlValue& value, std::string_view key) {
 }  // namespace
 
 Pose read_placement(const YamlValue& value,
-                    const Eigen::Matrix3d& R_unturned,
+                    const Eigen::Matrix3d& R_outer_inner,
                     std::vector<std::string>& warnings) {
   if (!value.is_map() || value.find("data")) {
     return read_pose(value, warnings);
@@ -26,7 +26,7 @@ Pose read_placement(const YamlValue& value,
        Eigen::AngleAxisd(angle_rad(value, "pitch_deg"), Eigen::Vector3d::UnitY()) *
        Eigen::AngleAxisd(angle_rad(value, "roll_deg"), Eigen::Vector3d::UnitX()))
           .toRotationMatrix();
-  return make_pose(R * R_unturned, {t_m[0], t_m[1], t_m[2]});
+  return make_pose(R * R_outer_inner, {t_m[0], t_m[1], t_m[2]});
 }
 
 }  // namespace skyhalo

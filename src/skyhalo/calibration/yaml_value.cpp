@@ -63,12 +63,15 @@ YamlValue YamlValue::at(std::string_view key) const {
   return *std::move(value);
 }
 
-void YamlValue::refuse_other_keys(std::initializer_list<std::string_view> known) const {
+void YamlValue::refuse_other_keys(std::initializer_list<std::string_view> known,
+                                  std::span<const std::string_view> more) const {
+  std::vector<std::string_view> all(known);
+  all.insert(all.end(), more.begin(), more.end());
   std::set<std::string> seen;
   for (const std::string& key : keys()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
+    if (std::find(all.begin(), all.end(), key) == all.end()) {
       std::string message = "unknown key; known are";
-      for (const std::string_view other : known) {
+      for (const std::string_view other : all) {
         message += " " + std::string(other);
       }
       throw error(key, message);

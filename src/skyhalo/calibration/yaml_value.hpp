@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,9 @@ class YamlValue {
   /// The entry of a map; throws `Error` (input) naming the key when it is absent.
   [[nodiscard]] YamlValue at(std::string_view key) const;
 
-  /// Throws for the first key of this map that is not listed, and for one that is given twice.
-  void refuse_other_keys(std::initializer_list<std::string_view> known) const;
+  /// Throws for the first key of this map that neither list has, and for one that is given twice.
+  void refuse_other_keys(std::initializer_list<std::string_view> known,
+                         std::span<const std::string_view> more = {}) const;
 
   /// The keys of this map, in the order of the file.
   [[nodiscard]] std::vector<std::string> keys() const;

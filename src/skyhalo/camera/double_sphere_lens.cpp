@@ -18,7 +18,7 @@ double domain_angle_rad(const DoubleSphereLens::Shape& shape) noexcept {
 }  // namespace
 
 DoubleSphereLens::DoubleSphereLens(const Intrinsics& intrinsics, const Shape& shape)
-    : intrinsics_(intrinsics), shape_(shape), max_angle_rad_(0.0) {
+    : intrinsics_(intrinsics), shape_(shape) {
   check(intrinsics);
   if (!(shape.xi > -1.0 && shape.xi <= 1.0) || !(shape.alpha >= 0.0 && shape.alpha <= 1.0)) {
     throw Error(ErrorKind::kInput, "distortion: expected xi in (-1, 1] and alpha in [0, 1]");

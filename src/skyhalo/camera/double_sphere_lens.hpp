@@ -46,7 +46,7 @@ class DoubleSphereLens {
  private:
   Intrinsics intrinsics_;
   Shape shape_;
-  double max_angle_rad_;
+  double max_angle_rad_ = 0.0;
 };
 
 }  // namespace skyhalo

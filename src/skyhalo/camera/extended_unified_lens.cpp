@@ -19,7 +19,7 @@ double domain_angle_rad(const ExtendedUnifiedLens::Shape& shape) noexcept {
 }  // namespace
 
 ExtendedUnifiedLens::ExtendedUnifiedLens(const Intrinsics& intrinsics, const Shape& shape)
-    : intrinsics_(intrinsics), shape_(shape), max_angle_rad_(0.0) {
+    : intrinsics_(intrinsics), shape_(shape) {
   check(intrinsics);
   if (!(shape.alpha >= 0.0 && shape.alpha <= 1.0) ||
       !(shape.beta > 0.0 && std::isfinite(shape.beta))) {

@@ -45,7 +45,7 @@ class ExtendedUnifiedLens {
  private:
   Intrinsics intrinsics_;
   Shape shape_;
-  double max_angle_rad_;
+  double max_angle_rad_ = 0.0;
 };
 
 }  // namespace skyhalo
