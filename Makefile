@@ -43,7 +43,7 @@ test: setup-test
 
 lint: setup-test
 	cmake --preset $(PRESET) -DSKYHALO_BUILD_TESTS=ON -DSKYHALO_BUILD_BENCH=ON -DSKYHALO_BUILD_EXAMPLES=ON
-	ctest --preset $(PRESET) --label-regex lint
+	ctest --test-dir build/$(PRESET) --output-on-failure --label-regex lint
 
 bench: setup-test
 	cmake --preset release -DSKYHALO_BUILD_TESTS=ON -DSKYHALO_BUILD_BENCH=ON -DSKYHALO_BUILD_EXAMPLES=ON

@@ -131,67 +131,68 @@ void reference_rig_half_size(benchmark::State& state) {
   });
 }
 
-/// OpenCV's way: warp at full size with its look-up maps, then shrink by area.
-void reference_rig_opencv_full_size(benchmark::State& state) {
-  cv::setNumThreads(1);
-  const std::vector<cv::Mat1b>& images = raw_images();
-  std::vector<Remapper> remappers;
-  for (const StereoPair& pair : reference_rig().pairs) {
-    remappers.emplace_back(left_goal(pair, 1));
-    remappers.emplace_back(right_goal(pair, 1));
+/// OpenCV's look-up maps of the eight cameras, to images shrunk by the factor.
+class OpencvMaps {
+ public:
+  explicit OpencvMaps(int factor) {
+    for (const StereoPair& pair : reference_rig().pairs) {
+      add(left_goal(pair, factor));
+      add(right_goal(pair, factor));
+    }
   }
-  cv::Mat1b whole;
-  cv::Mat1b half;
-  const auto make = [&](std::size_t image) {
-    remappers[image].remap(images[image], whole);
-    cv::resize(whole, half, {}, 1.0 / kFactor, 1.0 / kFactor, cv::INTER_AREA);
-  };
+
+  void remap(std::size_t image, cv::Mat1b& out) const {
+    cv::remap(raw_images()[image], out, maps_[image], fractions_[image], cv::INTER_LINEAR);
+  }
+
+ private:
+  void add(const RemapGoal& goal) {
+    cv::Mat2f at(goal.size_px);
+    for (int v = 0; v < at.rows; ++v) {
+      for (int u = 0; u < at.cols; ++u) {
+        const auto pixel = project(goal.camera.lens, goal.R_raw_cam * ray_of(goal.model, u, v));
+        at(v, u) = pixel ? cv::Vec2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
+                         : cv::Vec2f(-100.0F, -100.0F);
+      }
+    }
+    cv::convertMaps(at, cv::noArray(), maps_.emplace_back(), fractions_.emplace_back(), CV_16SC2);
+  }
+
+  std::vector<cv::Mat> maps_;
+  std::vector<cv::Mat> fractions_;
+};
+
+/// Times `make(image, out)` over the eight images and notes its error.
+template <class Make>
+void run_peer(benchmark::State& state, const Make& make) {
+  cv::setNumThreads(1);
+  cv::Mat1b out;
   while (state.KeepRunning()) {
-    for (std::size_t i = 0; i < remappers.size(); ++i) {
-      make(i);
-      benchmark::DoNotOptimize(half.data);
+    for (std::size_t i = 0; i < raw_images().size(); ++i) {
+      make(i, out);
+      benchmark::DoNotOptimize(out.data);
     }
   }
   state.counters["rms_grey"] = rms_error([&](std::size_t pair) {
-    make(2 * pair);
-    return half.clone();
+    make(2 * pair, out);
+    return out.clone();
   });
 }
 
-/// Bilinear look-up of each matched pixel's middle in the raw image: fast, and aliases.
-void reference_rig_opencv_point_sampling(benchmark::State& state) {
-  cv::setNumThreads(1);
-  const std::vector<cv::Mat1b>& images = raw_images();
-  std::vector<cv::Mat> maps;
-  std::vector<cv::Mat> fractions;
-  for (const StereoPair& pair : reference_rig().pairs) {
-    for (const RemapGoal& goal : {left_goal(pair, kFactor), right_goal(pair, kFactor)}) {
-      cv::Mat2f at(goal.size_px);
-      for (int v = 0; v < at.rows; ++v) {
-        for (int u = 0; u < at.cols; ++u) {
-          const auto pixel = project(goal.camera.lens, goal.R_raw_cam * ray_of(goal.model, u, v));
-          at(v, u) = pixel
-                         ? cv::Vec2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
-                         : cv::Vec2f(-100.0F, -100.0F);
-        }
-      }
-      cv::convertMaps(at, cv::noArray(), maps.emplace_back(), fractions.emplace_back(), CV_16SC2);
-    }
-  }
-  cv::Mat1b half;
-  const auto make = [&](std::size_t image) {
-    cv::remap(images[image], half, maps[image], fractions[image], cv::INTER_LINEAR);
-  };
-  while (state.KeepRunning()) {
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      make(i);
-      benchmark::DoNotOptimize(half.data);
-    }
-  }
-  state.counters["rms_grey"] = rms_error([&](std::size_t pair) {
-    make(2 * pair);
-    return half.clone();
+/// OpenCV's way: warp at full size, then shrink by area.
+void reference_rig_opencv_full_size(benchmark::State& state) {
+  const OpencvMaps maps(1);
+  cv::Mat1b whole;
+  run_peer(state, [&](std::size_t image, cv::Mat1b& out) {
+    maps.remap(image, whole);
+    cv::resize(whole, out, {}, 1.0 / kFactor, 1.0 / kFactor, cv::INTER_AREA);
   });
+}
+
+/// Bilinear look-up of each matched pixel's middle in the raw image: aliases.
+void reference_rig_opencv_point_sampling(benchmark::State& state) {
+  const OpencvMaps maps(kFactor);
+  run_peer(state, [&](std::size_t image, cv::Mat1b& out) { maps.remap(image, out); });
 }
 
 BENCHMARK(reference_rig_half_size)->Unit(benchmark::kMillisecond);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iomanip>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "skyhalo/io/epipolar_picture.hpp"
 #include "skyhalo/io/image_file.hpp"
 #include "skyhalo/io/output_folder.hpp"
+#include "skyhalo/io/text_file.hpp"
 #include "skyhalo/rectify/rectifier.hpp"
 #include "source.hpp"
 
@@ -54,35 +56,74 @@ std::size_t find_pair(const StereoRig& rig, const std::string& name) {
 }
 
 /// A recording as it is, or two image files as one of a single frame.
-std::unique_ptr<FrameSource> open_images(const RectifyCommand& options, const Config& config) {
+Recording open_images(const RectifyCommand& options, const Config& config) {
   if (options.inputs.size() == 1) {
     SourceOptions source = options.source;
     source.path = options.inputs.front();
-    return open_recording(source, config.dataset);
+    return open_recording(source, options.common, config, Poses::kUnused);
   }
   if (options.source.rig.empty()) {
     throw UsageError("--rig: expected the rig file of the cameras that took the two images");
   }
-  const StereoRig rig = load_rig(options.source.rig);
-  return std::make_unique<ImagePairSource>(
-      options.inputs[0], options.inputs[1], rig.pairs[find_pair(rig, options.pair)]);
+  const OpenedRig opened = open_rig(options.source.rig, options.common, config);
+  return {std::make_unique<ImagePairSource>(options.inputs[0],
+                                            options.inputs[1],
+                                            opened.rig.pairs[find_pair(opened.rig, options.pair)]),
+          opened.T_body_imu};
+}
+
+cv::Rect shrunk(const cv::Rect& mask, int factor) {
+  const auto down = [factor](int at) {
+    return static_cast<int>(std::floor(static_cast<double>(at) / factor));
+  };
+  const cv::Point first(down(mask.x), down(mask.y));
+  const cv::Point end(-down(-(mask.x + mask.width)), -down(-(mask.y + mask.height)));
+  return {first, end};
 }
 
 /// The rectified pair as a rig file of its own, for whoever goes on with the images.
-RigDescription describe_output(const StereoPair& pair, int downscale) {
-  return {.name = pair.name + " rectified",
-          .T_body_imu = {},
-          .pairs = {{.name = pair.name,
-                     .images = RectifiedPairDescription{{pair.image_size_px.width / downscale,
-                                                         pair.image_size_px.height / downscale},
-                                                        downscaled(pair.model, downscale)},
-                     .T_body_camera = pair.T_body_camera}}};
+RigDescription describe_output(const StereoPair& pair,
+                               const std::optional<Pose>& T_body_imu,
+                               int factor) {
+  PairDescription output{.name = pair.name,
+                         .images = RectifiedPairDescription{{pair.image_size_px.width / factor,
+                                                             pair.image_size_px.height / factor},
+                                                            downscaled(pair.model, factor)},
+                         .T_body_camera = pair.T_body_camera,
+                         .rcrop_px = pair.rcrop_px,
+                         .min_range_m = pair.min_range_m,
+                         .max_range_m = pair.max_range_m};
+  if (pair.downscale && *pair.downscale % factor == 0) {
+    output.downscale = *pair.downscale / factor;
+  }
+  for (const cv::Rect& mask : pair.masks_px) {
+    output.masks_px.push_back(shrunk(mask, factor));
+  }
+  return {.name = pair.name + " rectified", .T_body_imu = T_body_imu, .pairs = {output}};
 }
 
 std::string frame_name(const char* side, int frame) {
   std::array<char, 48> name{};
   const int length = std::snprintf(name.data(), name.size(), "%s_%06d.png", side, frame);
   return {name.data(), static_cast<std::size_t>(length)};
+}
+
+/// Frames of an earlier run that this one would not replace must not stand among its own.
+void refuse_other_frames(const std::filesystem::path& folder, const FrameRange& range) {
+  if (!std::filesystem::is_directory(folder)) {
+    return;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::optional<int> frame =
+        name.starts_with("left_") && name.ends_with(".png")
+            ? parse_whole_number(std::string_view(name).substr(5, name.size() - 9))
+            : std::nullopt;
+    if (frame && (*frame < range.first || *frame > range.last)) {
+      throw UsageError("--out " + folder.string() + ": holds " + name +
+                       " of an earlier run; remove it or choose another folder");
+    }
+  }
 }
 
 double median(std::vector<double> values) {
@@ -145,10 +186,11 @@ std::string rows_csv(const std::vector<RectifiedFrame>& frames) {
   return csv.str();
 }
 
-/// Over the matches of all frames together, and the worst of the frames' medians.
+/// Over the matches of all frames together, and the worst of the frames' medians; nulls where no
+/// feature was matched.
 nlohmann::json rows_json(const std::vector<RectifiedFrame>& frames) {
   std::vector<double> abs_dv_px;
-  double worst_px = 0.0;
+  double worst_px = std::nan("");
   int negative = 0;
   for (const auto& [frame, rows] : frames) {
     for (const PairMatch& match : rows.inliers) {
@@ -158,17 +200,36 @@ nlohmann::json rows_json(const std::vector<RectifiedFrame>& frames) {
     worst_px = std::fmax(worst_px, rows.median_abs_dv_px);
   }
   const std::size_t matches = abs_dv_px.size();
-  return {{"matches", matches},
-          {"median_abs_dv_px", median(std::move(abs_dv_px))},
-          {"worst_frame_median_abs_dv_px", worst_px},
-          {"negative_disparity_share", static_cast<double>(negative) / static_cast<double>(matches)}};
+  return {
+      {"matches", matches},
+      {"median_abs_dv_px", median(std::move(abs_dv_px))},
+      {"worst_frame_median_abs_dv_px", worst_px},
+      {"negative_disparity_share", static_cast<double>(negative) / static_cast<double>(matches)}};
+}
+
+/// What the measurement says against the calibration, if anything.
+std::vector<std::string> doubts(const nlohmann::json& rows) {
+  std::vector<std::string> found;
+  if (rows["matches"] == 0) {
+    found.emplace_back("no feature was matched: the rows were not measured");
+    return found;
+  }
+  if (rows["negative_disparity_share"] > 0.5) {
+    found.emplace_back("most disparities are negative: left and right images look swapped");
+  }
+  if (rows["median_abs_dv_px"] > 1.0) {
+    found.emplace_back(
+        "the rows differ by more than a pixel: the calibration does not fit these images");
+  }
+  return found;
 }
 
 std::string describe(const nlohmann::json& summary) {
   std::ostringstream text;
-  text << summary["frames"] << " frames of pair " << summary["pair"].get<std::string>()
-       << " rectified to " << summary["size_px"][0] << " x " << summary["size_px"][1] << "\n";
-  if (summary.contains("rows")) {
+  text << summary["frames"] << (summary["frames"] == 1 ? " frame" : " frames") << " of pair "
+       << summary["pair"].get<std::string>() << " rectified to " << summary["size_px"][0] << " x "
+       << summary["size_px"][1] << "\n";
+  if (summary.contains("rows") && summary["rows"]["matches"] > 0) {
     const nlohmann::json& rows = summary["rows"];
     text << std::setprecision(3) << "rows differ by " << rows["median_abs_dv_px"].get<double>()
          << " px in the median of " << rows["matches"] << " matched features (worst frame "
@@ -182,10 +243,12 @@ std::string describe(const nlohmann::json& summary) {
 void rectify(const RectifyCommand& options) {
   const Config config = load_config(options.common);
   const ThreadLimit limit(options.common.threads);
-  const auto source = open_images(options, config);
+  const Recording recording = open_images(options, config);
+  const auto& source = recording.frames;
   const std::size_t index = options.inputs.size() == 2 ? 0 : find_pair(source->rig(), options.pair);
   const StereoPair& pair = source->rig().pairs[index];
   const FrameRange range = parse_frames(options.frames, source->frame_count());
+  refuse_other_frames(options.out, range);
   OutputFolder out(options.out);
   FrameWriter writer(pair, options, out);
   {
@@ -196,7 +259,7 @@ void rectify(const RectifyCommand& options) {
         [&](int frame) { return source->read(frame); },
         [&](int frame, const FrameSet& frames) { writer.write(frame, frames.pairs[index]); });
   }
-  const RigDescription output = describe_output(pair, options.downscale);
+  const RigDescription output = describe_output(pair, recording.T_body_imu, options.downscale);
   const cv::Size size = std::get<RectifiedPairDescription>(output.pairs.front().images).size_px;
   nlohmann::json summary = {{"source", source->name()},
                             {"pair", pair.name},
@@ -206,6 +269,9 @@ void rectify(const RectifyCommand& options) {
                             {"out", options.out}};
   if (!options.skip_row_check) {
     summary["rows"] = rows_json(writer.frames());
+    for (const std::string& doubt : doubts(summary["rows"])) {
+      print_note(options.common, "warning: " + doubt);
+    }
     write_bytes(out.file("rows.csv"), rows_csv(writer.frames()));
   }
   write_bytes(out.file("rig.yaml"), to_yaml(output, "The images beside this file."));
@@ -229,7 +295,8 @@ void add_rectify(CLI::App& program) {
                    options->inputs,
                    "a recording (KITTI raw drive, EuRoC flight), or a left and a right image")
       ->required()
-      ->expected(1, 2);
+      ->expected(1, 2)
+      ->type_name("SOURCE | LEFT RIGHT");
   add_rig_option(*command, options->source);
   command->add_option("--format", options->source.format, "take the source for this")
       ->check(CLI::IsMember({"auto", "kitti-raw", "euroc"}))

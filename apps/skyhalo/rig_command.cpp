@@ -41,6 +41,7 @@ struct ImportCommand {
   std::string size;
   std::string name;
   std::string model = "auto";
+  bool fisheye = false;
   std::optional<double> hfov_deg;
   std::optional<double> vfov_deg;
 };
@@ -94,6 +95,12 @@ bool is_wide(const RawPair& cameras) {
   }
 }
 
+void check_angle(const char* option, const std::optional<double>& angle_deg) {
+  if (angle_deg && !(*angle_deg > 0.0 && *angle_deg <= 360.0)) {
+    throw UsageError(std::string(option) + ": expected an angle above 0 degrees");
+  }
+}
+
 void choose_models(const ImportCommand& options, RigDescription& rig) {
   for (PairDescription& pair : rig.pairs) {
     if (auto* raw = std::get_if<RawPairDescription>(&pair.images)) {
@@ -116,7 +123,16 @@ void print_warnings(const CommonOptions& options, const std::vector<std::string>
   }
 }
 
+/// Throws for the first pair that cannot be used.
+void refuse_unusable(const std::string& file, const RigReport& report) {
+  if (!report.unusable.empty()) {
+    throw input_error(file, report.unusable.front());
+  }
+}
+
 void import_rig(const ImportCommand& options) {
+  check_angle("--hfov-deg", options.hfov_deg);
+  check_angle("--vfov-deg", options.vfov_deg);
   const Config config = load_config(options.common);
   const std::vector<std::filesystem::path> files(options.files.begin(), options.files.end());
   ImportResult imported = import_calibration(
@@ -124,7 +140,8 @@ void import_rig(const ImportCommand& options) {
       {.format = kFormats.at(options.format),
        .mounting = {.facing = kFacings.at(options.facing), .body_at_imu = options.body == "imu"},
        .size_px = parse_size(options.size),
-       .name = options.name});
+       .name = options.name,
+       .opencv_fisheye = options.fisheye});
   choose_models(options, imported.rig);
   const RigReport report = check_rig(imported.rig, check_settings(config));
   const std::string yaml =
@@ -133,6 +150,7 @@ void import_rig(const ImportCommand& options) {
                   ".\nFrames and keys: skyhalo rig check --help, skyhalo rig schema.");
   print_warnings(options.common, imported.warnings);
   print_warnings(options.common, report.warnings);
+  refuse_unusable(options.files.front(), report);
   nlohmann::json summary = rig_json(report);
   for (const std::string& warning : imported.warnings) {
     summary["warnings"].push_back(warning);
@@ -156,11 +174,15 @@ void check(const CheckCommand& options) {
   RigReport report = check_rig(rig.description, check_settings(config));
   report.warnings.insert(report.warnings.begin(), rig.warnings.begin(), rig.warnings.end());
   print_warnings(options.common, report.warnings);
-  const std::string verdict = report.warnings.empty()
-                                  ? "Nothing looks wrong.\n"
-                                  : std::to_string(report.warnings.size()) + " warnings.\n";
+  const std::size_t count = report.warnings.size() + report.unusable.size();
+  const std::string verdict =
+      count == 0 ? "Nothing looks wrong.\n"
+                 : std::to_string(count) + (count == 1 ? " warning.\n" : " warnings.\n");
   print_result(
       options.common, rig_table(report, check_settings(config)) + verdict, rig_json(report));
+  if (!report.unusable.empty()) {
+    (void)load_rig(options.file);  // says why, with the line
+  }
 }
 
 void add_import(CLI::App& rig) {
@@ -180,7 +202,9 @@ void add_import(CLI::App& rig) {
       ->check(CLI::IsMember(words(kFormats)))
       ->capture_default_str();
   command
-      ->add_option("--facing", options->facing, "which way the first pair looks from the vehicle")
+      ->add_option("--facing",
+                   options->facing,
+                   "which way the first pair looks from the vehicle (KITTI's files say it)")
       ->check(CLI::IsMember(words(kFacings)))
       ->capture_default_str();
   command
@@ -206,6 +230,8 @@ void add_import(CLI::App& rig) {
                    options->vfov_deg,
                    "height of the rectified image (default: all that is seen)")
       ->check(CLI::PositiveNumber);
+  command->add_flag(
+      "--fisheye", options->fisheye, "OpenCV: the four coefficients are those of cv::fisheye");
   command->add_option("--size", options->size, "image size, where the files do not say it")
       ->type_name("WxH");
   command->add_option("--name", options->name, "name of the rig (default: the format's)");

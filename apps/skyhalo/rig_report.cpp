@@ -1,31 +1,25 @@
 #include "rig_report.hpp"
 
-#include <cstdio>
 #include <sstream>
 
+#include "skyhalo/base/number_text.hpp"
 #include "skyhalo/geometry/angle.hpp"
 
 namespace skyhalo::app {
 namespace {
 
-std::string number(const char* format, double value) {
-  std::array<char, 64> text{};
-  const int length = std::snprintf(text.data(), text.size(), format, value);
-  return {text.data(), static_cast<std::size_t>(length)};
-}
-
 std::string vector_text(const Eigen::Vector3d& v) {
-  return "(" + number("%.3f", v.x()) + ", " + number("%.3f", v.y()) + ", " + number("%.3f", v.z()) +
-         ")";
+  return "(" + number_text("%.3f", v.x()) + ", " + number_text("%.3f", v.y()) + ", " +
+         number_text("%.3f", v.z()) + ")";
 }
 
 std::string resolution(const PairModel& model) {
   if (const auto* pinhole = std::get_if<PinholePair>(&model)) {
-    return "f " + number("%.2f", pinhole->focal_px) + " px";
+    return "f " + number_text("%.2f", pinhole->focal_px) + " px";
   }
   const auto& spherical = std::get<SphericalPair>(model);
-  return number("%.5f", deg_from_rad(spherical.delta_theta_u_rad)) + " x " +
-         number("%.5f", deg_from_rad(spherical.delta_theta_v_rad)) + " degrees per pixel";
+  return number_text("%.5f", deg_from_rad(spherical.delta_theta_u_rad)) + " x " +
+         number_text("%.5f", deg_from_rad(spherical.delta_theta_v_rad)) + " degrees per pixel";
 }
 
 std::string kind(const PairModel& model) {
@@ -35,20 +29,20 @@ std::string kind(const PairModel& model) {
 void describe(const PairReport& pair, const RigCheckSettings& settings, std::ostream& text) {
   text << "pair " << pair.name << (pair.raw ? ": raw images, rectified to " : ": rectified, ")
        << kind(pair.model) << "\n"
-       << "  baseline         " << number("%.4f", baseline_m(pair.model)) << " m\n"
+       << "  baseline         " << number_text("%.4f", baseline_m(pair.model)) << " m\n"
        << "  rectified image  " << pair.size_px.width << " x " << pair.size_px.height << ", "
        << resolution(pair.model) << ", matched at 1/" << pair.downscale << "\n"
-       << "  field of view    " << number("%.1f", deg_from_rad(pair.field.horizontal_rad)) << " x "
-       << number("%.1f", deg_from_rad(pair.field.vertical_rad)) << " degrees";
+       << "  field of view    " << number_text("%.1f", deg_from_rad(pair.field.horizontal_rad))
+       << " x " << number_text("%.1f", deg_from_rad(pair.field.vertical_rad)) << " degrees";
   if (pair.raw) {
-    text << ", " << number("%.0f", 100.0 * pair.seen_share) << " % of it seen by both cameras";
+    text << ", " << number_text("%.0f", 100.0 * pair.seen_share) << " % of it seen by both cameras";
   }
   text << "\n  looks            " << in_words(pair.axis_body) << ", axis "
        << vector_text(pair.axis_body) << " in body (x forward, y left, z up)\n"
        << "  right camera at  " << vector_text(pair.position_body_m) << " m in body\n"
-       << "  range            from " << number("%.2f", pair.min_range_m) << " m ("
+       << "  range            from " << number_text("%.2f", pair.min_range_m) << " m ("
        << settings.max_disparity_px << " px of disparity); uncertainty passes one cell of "
-       << settings.voxel_m << " m at " << number("%.1f", pair.range_of_one_cell_m) << " m\n";
+       << settings.voxel_m << " m at " << number_text("%.1f", pair.range_of_one_cell_m) << " m\n";
 }
 
 nlohmann::json list(const Eigen::Vector3d& v) {
@@ -83,6 +77,7 @@ nlohmann::json json_of(const PairReport& pair) {
 RigCheckSettings check_settings(const Config& config) {
   return {
       .downscale = config.detector.matching.downscale,
+      .rcrop_px = config.detector.matching.rcrop_px,
       .max_disparity_px = static_cast<double>(config.detector.matching.matcher.max_disparity_px),
       .delta_d_px = config.detector.sensor_model.delta_d_px,
       .voxel_m = config.detector.map.voxel_m};
@@ -101,7 +96,7 @@ nlohmann::json rig_json(const RigReport& report) {
   for (const PairReport& pair : report.pairs) {
     pairs.push_back(json_of(pair));
   }
-  return {{"pairs", pairs}, {"warnings", report.warnings}};
+  return {{"pairs", pairs}, {"warnings", report.warnings}, {"unusable", report.unusable}};
 }
 
 }  // namespace skyhalo::app

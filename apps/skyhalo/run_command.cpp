@@ -69,7 +69,7 @@ std::string describe(const nlohmann::json& summary, const std::vector<StageTimes
 void run(const RunOptions& options) {
   const Config config = load_config(options.common);
   const ThreadLimit limit(options.common.threads);
-  const auto source = open_recording(options.source, config.dataset);
+  const auto source = open_recording(options.source, options.common, config, Poses::kNeeded).frames;
   const FrameRange range = parse_frames(options.frames, source->frame_count());
   OutputFolder out(options.out);
   ObstacleDetector detector(

@@ -142,10 +142,11 @@ TEST(BasaltFileTest, WhatIsWrongIsNamedByItsPath) {
       {"\"px\": 1.5", "\"x\": 1.5", {"value0.T_imu_cam[1].px: this key is missing"}},
       {", [640, 400]", "", {"value0.resolution: expected 2 entries", "found 1"}},
       {"[640, 400]", "[640]", {"value0.resolution[1]: expected width and height"}},
-      {"[640, 400]", "[640, -400]", {"value0.resolution[1][1]: expected a size above 0"}},
+      {"[640, 400]", "[640, -400]", {"value0.resolution[1][1]: expected a whole"}},
+      {"[640, 400]", "[16385, 400]", {"value0.resolution[1][0]: expected", "1...16384"}},
       {"\"fx\": 350", "\"fx\": null", {"value0.intrinsics[0].intrinsics.fx: expected a finite"}},
       {"\"fx\": 350", "\"fx\": NaN", {"value0.intrinsics[0].intrinsics.fx: expected", "NaN"}},
-      {"\"fx\": 350", "\"fx\": 35x", {"line 8"}},
+      {"\"fx\": 350", "\"fx\": 35x", {":8: not valid JSON"}},
       {"\"fx\": 350", "\"fx\": \"350\"", {"value0.intrinsics[0].intrinsics.fx: expected a finite"}},
       {"\"fx\": 350", "\"fx\": -350", {"value0.intrinsics[0].intrinsics: "}},
       {"0.6", "1.6", {"value0.intrinsics[0].intrinsics: ", "alpha"}},
@@ -156,7 +157,8 @@ TEST(BasaltFileTest, WhatIsWrongIsNamedByItsPath) {
       "calib.json",
       {{"cam.T_i_c", "T_i_c", {"value0.cam.T_i_c: this key is missing"}},
        {"\"p2\"", "\"p9\"", {"value0.cam.intrinsics[0].p2: this key is missing"}},
-       {"\"width\": 752", "\"width\": 0", {"value0.cam.intrinsics[0].width: expected a size"}},
+       {"\"width\": 752", "\"width\": 0", {"value0.cam.intrinsics[0].width: expected a whole"}},
+       {"\"width\": 752", "\"width\": 16385", {"value0.cam.intrinsics[0].width", "1...16384"}},
        {"\"eucm\"", "\"fov\"", {"value0.cam.intrinsics[1].cam_type: 'fov'"}}},
       read_file);
   testing::expect_no_content_refused("calib.json", read_file);

@@ -89,5 +89,11 @@ TEST(CalibrationFormatTest, WhatIsNoTextIsRefused) {
   EXPECT_THAT(message_of([&] { (void)recognise_format({}); }), HasSubstr("expected a calibration"));
 }
 
+TEST(CalibrationFormatTest, AFolderThatCannotBeReadIsNamed) {
+  const TempFolder folder;
+  const auto path = folder.path() / std::string(5000, 'x');
+  EXPECT_THAT(message_of([&] { (void)recognise_format({path}); }), HasSubstr(path.string()));
+}
+
 }  // namespace
 }  // namespace skyhalo

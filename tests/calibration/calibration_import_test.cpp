@@ -100,14 +100,16 @@ TEST(CalibrationImportTest, TheNumberOfFilesMustFitTheFormat) {
   EXPECT_THAT(refusal({}, CalibrationFormat::kKalibr), HasSubstr("expected a calibration file"));
 }
 
+const std::string kTracking =
+    "P2: 256 0 160 0 0 256 48 0 0 0 1 0\n"
+    "P3: 256 0 160 -128 0 256 48 0 0 0 1 0\n"
+    "R_rect 1 0 0 0 1 0 0 0 1\n"
+    "Tr_velo_cam 0 -1 0 0.25 0 0 -1 -0.125 1 0 0 -0.25\n"
+    "Tr_imu_velo 1 0 0 -0.75 0 1 0 0 0 0 1 -0.5\n";
+
 TEST(CalibrationImportTest, KittiKeepsItsBodyOrIsMountedAtTheCamera) {
   const TempFolder folder;
-  const auto file = folder.write("0003.txt",
-                                 "P2: 256 0 160 0 0 256 48 0 0 0 1 0\n"
-                                 "P3: 256 0 160 -128 0 256 48 0 0 0 1 0\n"
-                                 "R_rect 1 0 0 0 1 0 0 0 1\n"
-                                 "Tr_velo_cam 0 -1 0 0.25 0 0 -1 -0.125 1 0 0 -0.25\n"
-                                 "Tr_imu_velo 1 0 0 -0.75 0 1 0 0 0 0 1 -0.5\n");
+  const auto file = folder.write("0003.txt", kTracking);
   const cv::Size size_px(1242, 375);
   const ImportResult at_imu = import_calibration({file}, {.size_px = size_px});
   EXPECT_EQ(at_imu.format, CalibrationFormat::kKittiTracking);
@@ -138,6 +140,63 @@ TEST(CalibrationImportSystem, RecordedCalibrationsAreRecognised) {
   EXPECT_EQ(kitti.format, CalibrationFormat::kKittiRaw);
   const auto& images = std::get<RectifiedPairDescription>(kitti.rig.pairs.at(0).images);
   EXPECT_NEAR(std::get<PinholePair>(images.model).baseline_m, 0.5372, 5e-5);
+}
+
+TEST(CalibrationImportTest, AFacingThatKittiLeavesOutIsWarnedOf) {
+  const TempFolder folder;
+  const auto file = folder.write("0003.txt", kTracking);
+  const auto warnings = [&](const Mounting& mounting) {
+    return import_calibration({file}, {.mounting = mounting, .size_px = cv::Size(1242, 375)})
+        .warnings;
+  };
+  ASSERT_THAT(warnings({.facing = Facing::kLeft}), SizeIs(1));
+  EXPECT_THAT(warnings({.facing = Facing::kLeft})[0],
+              AllOf(HasSubstr(file.string()), HasSubstr("which way the cameras look")));
+  EXPECT_THAT(warnings({.facing = Facing::kForward}), IsEmpty());
+  EXPECT_THAT(warnings({.facing = Facing::kLeft, .body_at_imu = false}), IsEmpty());
+}
+
+TEST(CalibrationImportTest, ASizeThatIsGivenIsWithinTheLimits) {
+  const TempFolder folder;
+  const auto file = folder.write("0003.txt", kTracking);
+  for (const cv::Size& bad : {cv::Size(16385, 375), cv::Size(1242, 16385), cv::Size(0, 375)}) {
+    EXPECT_THAT(message_of([&] { (void)import_calibration({file}, {.size_px = bad}); }),
+                HasSubstr(file.string() + ": size_px: expected a whole number of pixels in 1..."));
+  }
+}
+
+TEST(CalibrationImportTest, OpencvFilesMayBeTakenForFisheyes) {
+  const std::string text =
+      "M1: [ 400, 0, 320, 0, 400, 240, 0, 0, 1 ]\nD1: [ 0.1, 0.02, 0.003, 0.004 ]\n"
+      "M2: [ 400, 0, 320, 0, 400, 240, 0, 0, 1 ]\nD2: [ 0.1, 0.02, 0.003, 0.004 ]\n"
+      "R: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]\nT: [ -0.2, 0, 0 ]\nimage_size: [ 640, 480 ]\n";
+  const TempFolder folder;
+  const auto file = folder.write("stereo.yml", text);
+  const auto lens = [](const ImportResult& result) {
+    return std::get<RawPairDescription>(result.rig.pairs.at(0).images).cameras.left.lens;
+  };
+  const ImportResult plain = import_calibration({file}, {});
+  EXPECT_TRUE(std::holds_alternative<RadialTangentialLens>(lens(plain)));
+  EXPECT_THAT(plain.warnings, SizeIs(2));
+  const ImportResult fisheye = import_calibration({file}, {.opencv_fisheye = true});
+  EXPECT_TRUE(std::holds_alternative<KannalaBrandtLens>(lens(fisheye)));
+  EXPECT_THAT(fisheye.warnings, IsEmpty());
+}
+
+TEST(CalibrationImportTest, DeepNestingIsRefusedWhateverTheFormat) {
+  const TempFolder folder;
+  const std::string deep(200000, '[');
+  for (const std::string& text : {"M1: " + deep, "{\"M1\": " + deep, "cam0: " + deep}) {
+    SCOPED_TRACE(text.substr(0, 10));
+    const auto file = folder.write("deep", text);
+    for (const CalibrationFormat format : {CalibrationFormat::kAuto,
+                                           CalibrationFormat::kOpencv,
+                                           CalibrationFormat::kKalibr,
+                                           CalibrationFormat::kBasalt}) {
+      EXPECT_THAT(message_of([&] { (void)import_calibration({file}, {.format = format}); }),
+                  HasSubstr(file.string()));
+    }
+  }
 }
 
 }  // namespace

@@ -117,6 +117,8 @@ TEST(EurocFileTest, WhatIsWrongIsNamed) {
        {", 248.0]", "]", {":13: intrinsics: expected 4 numbers, found 3"}},
        {", 1.76e-05]", "]", {":15: distortion_coefficients: expected 4, 5 or 8 numbers, found 3"}},
        {"752, ", "", {":11: resolution: expected width and height"}},
+       {"752, ", "16385, ", {":11: resolution[0]: expected", "1...16384"}},
+       {"intrinsics", "T_BS: 1\nintrinsics", {":3: T_BS: is given twice"}},
        {"458.0", ".nan", {":13: intrinsics", ".nan"}},
        {"458.0", "-458.0", {":13: intrinsics: "}},
        {"0.2,", "nan,", {"T_BS.data", "nan"}},
@@ -150,6 +152,13 @@ TEST(EurocFileSystem, TheRecordedFisheyesHaveTheirBaseline) {
   const RawPair& pair = std::get<RawPairDescription>(rig.pairs.at(0).images).cameras;
   EXPECT_NEAR(pair.T_right_left.translation().x(), -0.1203, 5e-5);
   EXPECT_TRUE(std::holds_alternative<KannalaBrandtLens>(pair.left.lens));
+}
+
+TEST(EurocFileTest, AFolderThatCannotBeReadIsNamed) {
+  const TempFolder folder;
+  const auto path = folder.path() / std::string(5000, 'x');
+  EXPECT_THAT(message_of([&] { (void)is_euroc_folder(path); }), HasSubstr(path.string()));
+  EXPECT_THAT(message_of([&] { (void)read_euroc({path}); }), HasSubstr(path.string()));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::message_of;
+using ::testing::Not;
 using testing::TempFolder;
 
 JsonValue root_of(const TempFolder& folder, const std::string& text) {
@@ -76,6 +77,31 @@ TEST(JsonValueTest, WhatIsNoJsonObjectIsRefused) {
     EXPECT_THAT(message_of([&] { (void)root_of(folder, bad); }),
                 HasSubstr((folder.path() / "a.json").string()));
   }
+}
+
+TEST(JsonValueTest, AMistakeInTheSyntaxIsNamedByItsLine) {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "a.json").string();
+  const auto refusal = [&](const std::string& text) {
+    return message_of([&] { (void)root_of(folder, text); });
+  };
+  for (const std::string bad : {"{\n  \"a\": 1,\n  \"b\": 35x\n}\n",
+                                "{\n  \"a\": NaN,\n  \"b\": -Infinity x}\n",
+                                "{\n\n\"a\": [1, 2"}) {
+    SCOPED_TRACE(bad);
+    EXPECT_THAT(refusal(bad),
+                AllOf(HasSubstr(file + ":3: not valid JSON: "),
+                      Not(HasSubstr("exception")),
+                      Not(HasSubstr("parse error"))));
+  }
+  EXPECT_EQ(refusal("{\"a\": 1e999}"), file + ": not valid JSON: number overflow parsing '1e999'");
+}
+
+TEST(JsonValueTest, DeepNestingIsRefusedBeforeItIsCopied) {
+  const TempFolder folder;
+  const std::string text = "{\"a\": " + std::string(200000, '[') + std::string(200000, ']') + "}";
+  EXPECT_THAT(message_of([&] { (void)root_of(folder, text).at("a"); }),
+              AllOf(HasSubstr((folder.path() / "a.json").string()), HasSubstr("nested too deep")));
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ TEST(KittiRigTest, WhatIsWrongInARawFileIsNamed) {
        {"S_rect_01", "S", {"S_rect_01: this key is missing"}},
        {"S_rect_01: 1.242", "S_rect_01: 1.241", {":5: S_rect_01: the image size"}},
        {"S_rect_01: 1.242000e+03 3.75", "S_rect_01: 3.75", {":5: S_rect_01: expected 2"}},
-       {"S_rect_01: 1.242", "S_rect_01: -1.242", {":5: S_rect_01: expected a width"}},
-       {"S_rect_01: 1.242", "S_rect_01: 1.2425", {":5: S_rect_01: expected a width"}},
+       {"S_rect_01: 1.242", "S_rect_01: -1.242", {":5: S_rect_01: expected a whole"}},
+       {"S_rect_01: 1.242", "S_rect_01: 1.2425", {":5: S_rect_01: expected a whole"}},
+       {"S_rect_01: 1.242000e+03", "S_rect_01: 16385", {":5: S_rect_01: expected", "1...16384"}},
        {"-128", "0", {":6: P_rect_01"}},
        {"-128", "nan", {":6: P_rect_01", "nan"}}},
       read);
@@ -127,10 +128,12 @@ TEST(KittiRigTest, WhatIsWrongInATrackingFileIsNamed) {
                   {"-128", "0", {":3: P3: the right camera"}}},
                  read);
   const TempFolder folder;
-  EXPECT_THAT(message_of([&] {
-                (void)read_kitti_tracking_rig(folder.write("0003.txt", kTracking), std::nullopt);
-              }),
-              AllOf(HasSubstr("0003.txt"), HasSubstr("--size WxH")));
+  EXPECT_THAT(
+      message_of([&] {
+        (void)read_kitti_tracking_rig(folder.write("0003.txt", kTracking), std::nullopt);
+      }),
+      AllOf(
+          HasSubstr("0003.txt"), HasSubstr("the size of the images"), HasSubstr("must be given")));
 }
 
 TEST(KittiRigSystem, TheRecordedDayGivesWhatItsCalibrationGives) {
@@ -161,6 +164,13 @@ TEST(KittiRigSystem, TheRecordedSequenceIsTheColourPairOfItsDay) {
   expect_matrix(
       tracking.pairs.at(0).T_body_camera.matrix(), raw.pairs.at(0).T_body_camera.matrix(), 1e-6);
   EXPECT_NEAR(std::get<PinholePair>(images(tracking).model).baseline_m, 0.5327, 5e-5);
+}
+
+TEST(KittiRigTest, AFolderThatCannotBeReadIsNamed) {
+  const TempFolder folder;
+  const auto path = folder.path() / std::string(5000, 'x');
+  EXPECT_THAT(message_of([&] { (void)read_kitti_raw_rig(path, KittiPair::kGrey); }),
+              HasSubstr(path.string()));
 }
 
 }  // namespace

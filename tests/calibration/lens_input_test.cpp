@@ -100,5 +100,26 @@ TEST(LensInputTest, WhatTheLensRefusesIsSaidInTheFilesWords) {
               HasSubstr("f:2: "));
 }
 
+TEST(LensInputTest, ACameraMatrixHasOnlyItsFourNumbers) {
+  const ErrorAt error_at = [](std::string_view message) {
+    return input_error("a.yaml", "K: " + std::string(message));
+  };
+  const std::vector<double> good = {400, 0, 320, 0, 401, 240, 0, 0, 1};
+  const Intrinsics k = intrinsics_from(good, error_at);
+  EXPECT_EQ(k.fx_px, 400.0);
+  EXPECT_EQ(k.fy_px, 401.0);
+  EXPECT_EQ(k.cx_px, 320.0);
+  EXPECT_EQ(k.cy_px, 240.0);
+  for (const std::size_t i : {1U, 3U, 6U, 7U, 8U}) {
+    SCOPED_TRACE(i);
+    std::vector<double> bad = good;
+    bad[i] = 0.5;
+    EXPECT_THAT(message_of([&] { (void)intrinsics_from(bad, error_at); }),
+                HasSubstr("a.yaml: K: expected fx 0 cx"));
+  }
+  EXPECT_THAT(message_of([&] { (void)intrinsics_from(std::vector<double>(8), error_at); }),
+              HasSubstr("a.yaml: K: expected 9 numbers, found 8"));
+}
+
 }  // namespace
 }  // namespace skyhalo

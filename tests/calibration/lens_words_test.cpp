@@ -27,11 +27,12 @@ Lens make(const std::string& word, const std::vector<double>& numbers) {
 TEST(LensWordsTest, EachWordMakesItsLens) {
   EXPECT_THAT(std::get<RadialTangentialLens>(make("pinhole", {})).distortion(),
               ::testing::Each(0.0));
+  EXPECT_THAT(std::get<RadialTangentialLens>(make("radial-tangential", {-0.1, 0.02, 3e-3, 4e-3}))
+                  .distortion(),
+              ElementsAre(-0.1, 0.02, 3e-3, 4e-3, 0, 0, 0, 0));
   EXPECT_THAT(
-      std::get<RadialTangentialLens>(make("radial-tangential", {-0.1, 0.02, 3e-3, 4e-3})).distortion(),
-      ElementsAre(-0.1, 0.02, 3e-3, 4e-3, 0, 0, 0, 0));
-  EXPECT_THAT(std::get<KannalaBrandtLens>(make("kannala-brandt", {0.1, 0.2, 0.3, 0.4})).distortion(),
-              ElementsAre(0.1, 0.2, 0.3, 0.4));
+      std::get<KannalaBrandtLens>(make("kannala-brandt", {0.1, 0.2, 0.3, 0.4})).distortion(),
+      ElementsAre(0.1, 0.2, 0.3, 0.4));
   const auto sphere = std::get<DoubleSphereLens>(make("double-sphere", {-0.25, 0.6}));
   EXPECT_EQ(sphere.shape().xi, -0.25);
   EXPECT_EQ(sphere.shape().alpha, 0.6);
@@ -42,21 +43,20 @@ TEST(LensWordsTest, EachWordMakesItsLens) {
 }
 
 TEST(LensWordsTest, RadialTangentialTakesFourFiveOrEightNumbers) {
-  EXPECT_THAT(std::get<RadialTangentialLens>(
-                  make("radial-tangential", {0.1, 0.02, 0.003, 0.004, 0.05}))
-                  .distortion(),
-              ElementsAre(0.1, 0.02, 0.003, 0.004, 0.05, 0, 0, 0));
+  EXPECT_THAT(
+      std::get<RadialTangentialLens>(make("radial-tangential", {0.1, 0.02, 0.003, 0.004, 0.05}))
+          .distortion(),
+      ElementsAre(0.1, 0.02, 0.003, 0.004, 0.05, 0, 0, 0));
   EXPECT_THAT(std::get<RadialTangentialLens>(
                   make("radial-tangential", {0.1, 0.02, 0.003, 0.004, 0.05, 0.06, 0.07, 0.08}))
                   .distortion(),
               ElementsAre(0.1, 0.02, 0.003, 0.004, 0.05, 0.06, 0.07, 0.08));
   for (const std::size_t count : {0U, 1U, 2U, 3U, 6U, 7U, 9U, 12U}) {
-    EXPECT_THAT(message_of([&] {
-                  (void)make("radial-tangential", std::vector<double>(count, 0.001));
-                }),
-                AllOf(::testing::StartsWith("distortion: "),
-                      HasSubstr("4, 5 or 8"),
-                      HasSubstr("found " + std::to_string(count))));
+    EXPECT_THAT(
+        message_of([&] { (void)make("radial-tangential", std::vector<double>(count, 0.001)); }),
+        AllOf(::testing::StartsWith("distortion: "),
+              HasSubstr("4, 5 or 8"),
+              HasSubstr("found " + std::to_string(count))));
   }
 }
 
@@ -68,11 +68,9 @@ TEST(LensWordsTest, OtherCountsAreRefused) {
       {"extended-unified", {0, 1, 3, 4}}};
   for (const auto& [word, counts] : wrong) {
     for (const std::size_t count : counts) {
-      EXPECT_THAT(message_of([&, word = word] {
-                    (void)make(word, std::vector<double>(count, 0.1));
-                  }),
-                  AllOf(::testing::StartsWith("distortion: "),
-                        HasSubstr("found " + std::to_string(count))))
+      EXPECT_THAT(
+          message_of([&, word = word] { (void)make(word, std::vector<double>(count, 0.1)); }),
+          AllOf(::testing::StartsWith("distortion: "), HasSubstr("found " + std::to_string(count))))
           << word;
     }
   }
@@ -92,13 +90,21 @@ TEST(LensWordsTest, AnUnknownWordIsAnsweredWithTheKnownOnes) {
 }
 
 TEST(LensWordsTest, NumbersOutsideTheDomainNameTheirKey) {
-  EXPECT_THAT(message_of([] { (void)make_lens("pinhole", {-1.0, 1.0, 0.0, 0.0}, {}); }),
+  EXPECT_THAT(message_of([] {
+                (void)make_lens("pinhole", {-1.0, 1.0, 0.0, 0.0}, {});
+              }),
               ::testing::StartsWith("intrinsics_px: "));
-  EXPECT_THAT(message_of([] { (void)make("double-sphere", {-0.25, 1.5}); }),
+  EXPECT_THAT(message_of([] {
+                (void)make("double-sphere", {-0.25, 1.5});
+              }),
               ::testing::StartsWith("distortion: "));
-  EXPECT_THAT(message_of([] { (void)make("extended-unified", {0.5, 0.0}); }),
+  EXPECT_THAT(message_of([] {
+                (void)make("extended-unified", {0.5, 0.0});
+              }),
               ::testing::StartsWith("distortion: "));
-  EXPECT_THAT(message_of([] { (void)make("radial-tangential", {-1e9, 0.0, 0.0, 0.0}); }),
+  EXPECT_THAT(message_of([] {
+                (void)make("radial-tangential", {-1e9, 0.0, 0.0, 0.0});
+              }),
               ::testing::StartsWith("distortion: "));
 }
 

@@ -48,7 +48,7 @@ TEST(OpencvFileTest, TheCamerasAreReadOff) {
   const ImportedCameras imported = read(kWhole);
   ASSERT_THAT(imported.cameras, SizeIs(2));
   EXPECT_FALSE(imported.reference_is_imu);
-  EXPECT_THAT(imported.warnings, IsEmpty());
+  EXPECT_THAT(imported.warnings, SizeIs(1));  // of the right camera's four coefficients
   EXPECT_EQ(imported.cameras[0].name, "left");
   EXPECT_EQ(imported.cameras[0].camera.size_px, cv::Size(640, 480));
   const auto& left = std::get<RadialTangentialLens>(imported.cameras[0].camera.lens);
@@ -116,10 +116,16 @@ TEST(OpencvFileTest, TheFisheyeIsOneOnlyWhenAKeySaysSo) {
 TEST(OpencvFileTest, WithoutASizeOneIsAskedFor) {
   expect_refused(kWhole,
                  "stereo.yml",
-                 {{"image_size", "size", {"image_size: this key is missing", "--size WxH"}},
+                 {{"image_size",
+                   "size",
+                   {"image_size: this key is missing", "the size of the images must be given"}},
                   {"[ 640, 480 ]", "[ 640 ]", {"image_size: expected 2 numbers, found 1"}},
-                  {"[ 640, 480 ]", "[ 640, 0 ]", {"image_size: expected whole numbers"}},
-                  {"[ 640, 480 ]", "[ 640, 48.5 ]", {"image_size: expected whole numbers"}}},
+                  {"[ 640, 480 ]", "[ 640, 0 ]", {"image_size: expected a whole number"}},
+                  {"[ 640, 480 ]", "[ 640, 48.5 ]", {"image_size: expected a whole number"}},
+                  {"[ 640, 480 ]", "[ 16385, 480 ]", {"image_size: expected", "1...16384"}},
+                  {"image_size: [ 640, 480 ]",
+                   "image_width: 640\nimage_height: 16385",
+                   {"image_height: expected", "1...16384"}}},
                  read_file);
 }
 
@@ -170,6 +176,51 @@ TEST(OpencvFileTest, TheNamesOfTheCameraMatricesComeInPairs) {
   EXPECT_EQ(opencv_camera_matrix_keys(0).size(), opencv_camera_matrix_keys(1).size());
   EXPECT_EQ(opencv_camera_matrix_keys(0).front(), "M1");
   EXPECT_EQ(opencv_camera_matrix_keys(1).front(), "M2");
+}
+
+/// Both cameras with four coefficients.
+std::string four_each() {
+  return replaced(replaced(kWhole, ", 0.003 ]", " ]"), "cols: 5", "cols: 4");
+}
+
+TEST(OpencvFileTest, FourCoefficientsOfAnUnnamedModelAreWarnedOf) {
+  const ImportedCameras imported = read(four_each());
+  ASSERT_THAT(imported.warnings, SizeIs(2));
+  EXPECT_THAT(imported.warnings[0],
+              HasSubstr("stereo.yml: D1: 4 numbers and no word of the model: taken for "
+                        "radial-tangential; cv::fisheye writes 4 too"));
+  EXPECT_THAT(imported.warnings[1], HasSubstr("stereo.yml: D2: 4 numbers"));
+  EXPECT_THAT(read(four_each() + "camera_model: pinhole\n").warnings, SizeIs(2));
+  for (const std::string named : {"distortion_model: plumb_bob\n",
+                                  "distortion_model: fisheye\n",
+                                  "fisheye_model: 1\n",
+                                  "fisheye_model: 0\n"}) {
+    SCOPED_TRACE(named);
+    EXPECT_THAT(read(four_each() + named).warnings, IsEmpty());
+  }
+}
+
+ImportedCameras read_fisheye(const std::string& text) {
+  const TempFolder folder;
+  return read_opencv_stereo({folder.write("stereo.yml", text)}, std::nullopt, true);
+}
+
+TEST(OpencvFileTest, TheFisheyeMayBeAskedFor) {
+  for (const std::string model : {"", "camera_model: pinhole\n", "fisheye_model: 1\n"}) {
+    SCOPED_TRACE(model);
+    const ImportedCameras imported = read_fisheye(four_each() + model);
+    EXPECT_THAT(imported.warnings, IsEmpty());
+    EXPECT_THAT(std::get<KannalaBrandtLens>(imported.cameras[0].camera.lens).distortion(),
+                ElementsAre(-0.1, 0.02, 0.001, -0.002));
+    EXPECT_THAT(std::get<KannalaBrandtLens>(imported.cameras[1].camera.lens).distortion(),
+                ElementsAre(-0.2, 0.03, 0.002, -0.001));
+  }
+  EXPECT_THAT(message_of([&] { (void)read_fisheye(kWhole); }),
+              HasSubstr("stereo.yml: D1: expected 4 numbers, found 5"));
+  for (const std::string other : {"distortion_model: plumb_bob\n", "fisheye_model: 0\n"}) {
+    EXPECT_THAT(message_of([&] { (void)read_fisheye(four_each() + other); }),
+                AllOf(HasSubstr("stereo.yml"), HasSubstr("not the fisheye model")));
+  }
 }
 
 }  // namespace

@@ -102,5 +102,19 @@ TEST(OpencvStorageTest, WhatOpencvCannotReadIsAnErrorThatNamesTheFile) {
   }
 }
 
+TEST(OpencvStorageTest, NestingThatOpencvCannotParseIsRefused) {
+  const TempFolder folder;
+  const std::string deep(200000, '[');
+  std::string tags = "<?xml version=\"1.0\"?>\n<opencv_storage>\n";
+  for (int i = 0; i < 200000; ++i) {
+    tags += "<a>";
+  }
+  for (const std::string& text : {"M1: " + deep, "{\"M1\": " + deep, tags}) {
+    SCOPED_TRACE(text.substr(0, 30));
+    EXPECT_THAT(message_of([&] { (void)storage_of(folder, text); }),
+                AllOf(HasSubstr((folder.path() / "a.yml").string()), HasSubstr("nested too deep")));
+  }
+}
+
 }  // namespace
 }  // namespace skyhalo

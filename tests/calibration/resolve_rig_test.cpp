@@ -125,8 +125,7 @@ TEST(ResolveRigTest, AnImpossiblePairIsNamedByItsKey) {
               AllOf(StartsWith("pairs[0].T_right_left: "), HasSubstr("swapped")));
   EXPECT_THAT(refusal(raw_pair(level, {0.0, 0.0, 0.0})),
               AllOf(StartsWith("pairs[0].T_right_left: "), HasSubstr("zero")));
-  EXPECT_THAT(refusal(raw_pair(level, {0.0, -0.1, 0.0}), 2),
-              StartsWith("pairs[2].T_right_left: "));
+  EXPECT_THAT(refusal(raw_pair(level, {0.0, -0.1, 0.0}), 2), StartsWith("pairs[2].T_right_left: "));
   const Eigen::Matrix3d back =
       Eigen::AngleAxisd(rad_from_deg(180.0), Eigen::Vector3d::UnitX()).toRotationMatrix();
   EXPECT_THAT(refusal(raw_pair(back, {-0.1, 0.0, 0.0})),

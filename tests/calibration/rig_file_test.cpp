@@ -156,15 +156,14 @@ TEST(RigFileTest, YawTurnsToTheLeft) {
   expect_axes(placed("      position_m: [0, 0, 0]\n      yaw_deg: 90\n"), kForward, -kUp, kLeft);
   // 30 degrees: forward becomes (cos, sin, 0), right (sin, -cos, 0).
   const double c = 0.8660254037844387;
-  expect_axes(placed("      position_m: [0, 0, 0]\n      yaw_deg: 30\n"),
-              {0.5, -c, 0},
-              -kUp,
-              {c, 0.5, 0});
+  expect_axes(
+      placed("      position_m: [0, 0, 0]\n      yaw_deg: 30\n"), {0.5, -c, 0}, -kUp, {c, 0.5, 0});
 }
 
 TEST(RigFileTest, PitchTurnsDownwards) {
   // The vehicle's front is at the top of the image: down in the image is backwards.
-  expect_axes(placed("      position_m: [0, 0, 0]\n      pitch_deg: 90\n"), -kLeft, -kForward, -kUp);
+  expect_axes(
+      placed("      position_m: [0, 0, 0]\n      pitch_deg: 90\n"), -kLeft, -kForward, -kUp);
   const double c = 0.8660254037844387;
   expect_axes(placed("      position_m: [0, 0, 0]\n      pitch_deg: 30\n"),
               -kLeft,
@@ -228,8 +227,7 @@ TEST(RigFileTest, AMatrixIsTakenAsItIsWhateverTheCameraLooksAt) {
 
 TEST(RigFileTest, ASlightlyOddRotationIsMendedAloud) {
   const TempFolder folder;
-  const auto path =
-      folder.write("rig.yaml", changed(kRawRig, "[0, 1, 0, 0]", "[0, 1.0001, 0, 0]"));
+  const auto path = folder.write("rig.yaml", changed(kRawRig, "[0, 1, 0, 0]", "[0, 1.0001, 0, 0]"));
   const RigFile file = read_rig_file(path);
   ASSERT_THAT(file.warnings, SizeIs(1));
   EXPECT_THAT(file.warnings[0],

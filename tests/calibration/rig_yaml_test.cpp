@@ -130,8 +130,23 @@ class RandomRigs {
 
   /// Letters that mean something in YAML, among others.
   std::string text() {
-    const std::vector<std::string> parts = {"a", " ", "\"", "'",  ":",    "#", "- ", "{", "]",
-                                            "%", "&", "*",  "\u00e9", "~", "!",  "1", "null"};
+    const std::vector<std::string> parts = {"a",
+                                            " ",
+                                            "\"",
+                                            "'",
+                                            ":",
+                                            "#",
+                                            "- ",
+                                            "{",
+                                            "]",
+                                            "%",
+                                            "&",
+                                            "*",
+                                            "\u00e9",
+                                            "~",
+                                            "!",
+                                            "1",
+                                            "null"};
     std::string text;
     for (int i = whole(0, 6); i > 0; --i) {
       text += parts[static_cast<std::size_t>(whole(0, static_cast<int>(parts.size()) - 1))];
@@ -221,12 +236,12 @@ TEST(RigYamlProperty, WhatIsWrittenIsReadBackToTheLastBit) {
 RigDescription one_raw_pair() {
   const testing::ExampleLens lens = testing::example_lenses().front();
   const RawCamera camera{lens.size_px, lens.lens};
-  return {.name = "rig",
-          .T_body_imu = {},
-          .pairs = {{.name = "front",
-                     .images = RawPairDescription{
-                         {camera, camera, make_pose(Eigen::Matrix3d::Identity(), {-0.1, 0, 0})},
-                         {}}}}};
+  return {
+      .name = "rig",
+      .T_body_imu = {},
+      .pairs = {{.name = "front",
+                 .images = RawPairDescription{
+                     {camera, camera, make_pose(Eigen::Matrix3d::Identity(), {-0.1, 0, 0})}, {}}}}};
 }
 
 TEST(RigYamlProperty, EveryNumberOfDegreesIsReadBack) {

@@ -125,6 +125,16 @@ TEST(RosCameraInfoTest, WhatIsWrongIsNamed) {
       {"projection_matrix", "P", {"projection_matrix: this key is missing"}},
       {"image_width: 640", "image_width: 0", {":1: image_width"}},
       {"image_height: 480", "image_height: 48.5", {":2: image_height"}},
+      {"image_width: 640", "image_width: 16385", {":1: image_width: expected", "1...16384"}},
+      {"image_height: 480", "image_height: 0", {":2: image_height: expected", "1...16384"}},
+      {"image_width", "binning_x: 2\nimage_width", {":1: binning_x: binned images", "found 2"}},
+      {"image_width", "binning_y: 4\nimage_width", {":1: binning_y: binned images", "found 4"}},
+      {"image_width", "binning_y: -1\nimage_width", {":1: binning_y: binned images"}},
+      {"image_width", "roi: {x_offset: 8}\nimage_width", {":1: roi.x_offset: a part", "found 8"}},
+      {"image_width", "roi: {y_offset: 8}\nimage_width", {":1: roi.y_offset: a part", "found 8"}},
+      {"image_width", "roi: {width: 639}\nimage_width", {":1: roi.width: a part", "found 639"}},
+      {"image_width", "roi: {height: 640}\nimage_width", {":1: roi.height: a part", "found 640"}},
+      {"image_width", "image_height: 480\nimage_width", {"image_height: is given twice"}},
       {"240.0, 0.0,", "240.0,", {"camera_matrix.data: expected 3 x 3 numbers, found 8"}},
       {"-0.002, 0.0]", "-0.002]", {"distortion_coefficients.data: expected 1 x 5 numbers"}},
       {"  cols: 5\n  data: [", "  cols: 6\n  data: [0.0, ", {"expected 4 or 5 numbers", "found 6"}},
@@ -145,6 +155,17 @@ TEST(RosCameraInfoTest, WhatIsWrongIsNamed) {
   testing::expect_no_content_refused("right.yaml", [&](const std::filesystem::path& right) {
     (void)read_ros_camera_info(left, right);
   });
+}
+
+TEST(RosCameraInfoTest, WholeImagesMayBeSaidToBeWhole) {
+  for (const std::string whole :
+       {"binning_x: 0\nbinning_y: 0\n"
+        "roi: {x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: false}\n",
+        "binning_x: 1\nbinning_y: 1\n"
+        "roi: {x_offset: 0, y_offset: 0, height: 480, width: 640, do_rectify: true}\n"}) {
+    SCOPED_TRACE(whole);
+    EXPECT_EQ(read(kLeft + whole, kRight + whole).cameras.at(0).camera.size_px, cv::Size(640, 480));
+  }
 }
 
 }  // namespace

@@ -124,11 +124,14 @@ struct Named {
   std::string numbers;
 };
 
+/// Five radial-tangential coefficients, as cv::stereoCalibrate writes, and four of the fisheye.
 std::vector<Named> opencv_matrices(const Pair& pair) {
+  const std::string k3 = pair.fisheye ? "" : ", 0.";
+  const Eigen::Index coefficients = pair.fisheye ? 4 : 5;
   return {{"M1", 3, 3, rows(camera_matrix(pair.left))},
-          {"D1", 1, 4, list(pair.left.distortion)},
+          {"D1", 1, coefficients, list(pair.left.distortion) + k3},
           {"M2", 3, 3, rows(camera_matrix(pair.right))},
-          {"D2", 1, 4, list(pair.right.distortion)},
+          {"D2", 1, coefficients, list(pair.right.distortion) + k3},
           {"R", 3, 3, rows(pair.T_right_left().linear())},
           {"T", 3, 1, rows(pair.T_right_left().translation())}};
 }

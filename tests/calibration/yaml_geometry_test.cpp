@@ -60,7 +60,8 @@ TEST(YamlGeometryTest, APoseIsA4x4Matrix) {
 TEST(YamlGeometryTest, ASizeIsTwoWholeNumbersAboveZero) {
   const TempFolder folder;
   EXPECT_EQ(read_size_px(value_of(folder, "v: [752, 480]\n")), cv::Size(752, 480));
-  for (const std::string bad : {"[752]", "[752, 480, 1]", "[752, 0]", "[-752, 480]", "[7.5, 1]"}) {
+  for (const std::string bad :
+       {"[752]", "[752, 480, 1]", "[752, 0]", "[-752, 480]", "[7.5, 1]", "[16385, 1]"}) {
     SCOPED_TRACE(bad);
     EXPECT_THAT(message_of([&] { (void)read_size_px(value_of(folder, "v: " + bad + "\n")); }),
                 HasSubstr("a.yaml:1: v"));
@@ -84,6 +85,13 @@ TEST(YamlGeometryTest, ComplaintsNameThePlace) {
   EXPECT_THAT(error_at(map.at("v"))("wrong").what(), HasSubstr("a.yaml:2: v: wrong"));
   EXPECT_THAT(error_at(map, "v")("wrong").what(), HasSubstr("a.yaml:2: v: wrong"));
   EXPECT_THAT(error_at(map, "w")("wrong").what(), HasSubstr("a.yaml: w: wrong"));
+}
+
+TEST(YamlGeometryTest, ASideIsWithinTheLimits) {
+  const TempFolder folder;
+  EXPECT_EQ(read_side_px(value_of(folder, "v: 16384\n")), 16384);
+  EXPECT_THAT(message_of([&] { (void)read_side_px(value_of(folder, "v: 16385\n")); }),
+              HasSubstr("a.yaml:1: v: expected a whole number of pixels in 1...16384"));
 }
 
 }  // namespace

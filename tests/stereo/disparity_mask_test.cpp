@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -119,6 +120,116 @@ TEST(DisparityMaskProperty, APixelGoesIffItsBlockMeetsARectangle) {
       const cv::Rect block(u * downscale, v * downscale, downscale, downscale);
       const bool expected = !(block & masks[0]).empty() || !(block & masks[1]).empty();
       EXPECT_EQ(is_discarded(disparity, u, v), expected);
+    }
+  }
+}
+
+/// Masks of an 8 x 2 image that are 255 but for some columns.
+cv::Mat1b seen_but(const std::vector<int>& columns) {
+  cv::Mat1b mask(2, 8, uchar{255});
+  for (const int column : columns) {
+    mask.col(column) = 0;
+  }
+  return mask;
+}
+
+/// An image of 8 x 2 pixels with one disparity, of which unseen ones were discarded.
+cv::Mat1f with_unseen(float disparity_px, const cv::Mat1b& right, const cv::Mat1b& left) {
+  cv::Mat1f disparity(2, 8, disparity_px);
+  discard_unseen(disparity, right, left);
+  return disparity;
+}
+
+/// The columns that were kept, the same in both rows, with their disparity.
+std::vector<int> kept_columns(const cv::Mat1f& disparity, float disparity_px) {
+  std::vector<int> kept;
+  for (int u = 0; u < disparity.cols; ++u) {
+    EXPECT_EQ(std::isnan(disparity(0, u)), std::isnan(disparity(1, u))) << u;
+    if (!std::isnan(disparity(0, u))) {
+      EXPECT_EQ(disparity(0, u), disparity_px) << u;
+      kept.push_back(u);
+    }
+  }
+  return kept;
+}
+
+using Columns = std::vector<int>;
+
+TEST(DisparityMaskTest, PixelsThatTheRightCameraDidNotSeeGo) {
+  const cv::Mat1f disparity = with_unseen(2.0F, seen_but({0, 3}), {});
+  EXPECT_EQ(kept_columns(disparity, 2.0F), (Columns{1, 2, 4, 5, 6, 7}));
+}
+
+TEST(DisparityMaskTest, PixelsWhoseMatchTheLeftCameraDidNotSeeGo) {
+  // Column 4 of the left image is the match of column 2; those of 6 and 7 lie outside.
+  EXPECT_EQ(kept_columns(with_unseen(2.0F, {}, seen_but({4})), 2.0F), (Columns{0, 1, 3, 4, 5}));
+  EXPECT_EQ(kept_columns(with_unseen(0.0F, {}, seen_but({4})), 0.0F),
+            (Columns{0, 1, 2, 3, 5, 6, 7}));
+}
+
+TEST(DisparityMaskTest, EitherCameraDiscards) {
+  const cv::Mat1f disparity = with_unseen(2.0F, seen_but({0}), seen_but({4}));
+  EXPECT_EQ(kept_columns(disparity, 2.0F), (Columns{1, 3, 4, 5}));
+}
+
+TEST(DisparityMaskTest, TheMatchIsTheNearestColumn) {
+  // 2 + 1.49 is nearest to 3 and 2 + 1.51 to 4.
+  EXPECT_EQ(kept_columns(with_unseen(1.49F, {}, seen_but({4})), 1.49F),
+            (Columns{0, 1, 2, 4, 5, 6}));
+  EXPECT_EQ(kept_columns(with_unseen(1.51F, {}, seen_but({4})), 1.51F), (Columns{0, 1, 3, 4, 5}));
+  // 7 + 0.49 is still column 7; 7 + 0.51 lies outside.
+  EXPECT_EQ(kept_columns(with_unseen(0.49F, {}, seen_but({})), 0.49F).size(), 8U);
+  EXPECT_EQ(kept_columns(with_unseen(0.51F, {}, seen_but({})), 0.51F).size(), 7U);
+}
+
+TEST(DisparityMaskTest, MatchesOutsideTheLeftImageWereNotSeen) {
+  EXPECT_TRUE(kept_columns(with_unseen(8.0F, {}, seen_but({})), 8.0F).empty());
+  EXPECT_EQ(kept_columns(with_unseen(7.0F, {}, seen_but({})), 7.0F), (Columns{0}));
+  EXPECT_EQ(kept_columns(with_unseen(-2.0F, {}, seen_but({})), -2.0F).size(), 6U);
+  for (const float far : {1e9F, -1e9F, 1e30F, std::numeric_limits<float>::infinity()}) {
+    EXPECT_TRUE(kept_columns(with_unseen(far, {}, seen_but({})), far).empty()) << far;
+  }
+}
+
+TEST(DisparityMaskTest, AnEmptyMaskStandsForEverything) {
+  for (const float value : {0.0F, 2.0F, 100.0F}) {
+    EXPECT_EQ(kept_columns(with_unseen(value, {}, {}), value).size(), 8U);
+    EXPECT_EQ(kept_columns(with_unseen(value, seen_but({1}), {}), value).size(), 7U);
+  }
+}
+
+TEST(DisparityMaskTest, WhatHasNoDisparityStaysWithout) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  for (const cv::Mat1b& mask : {cv::Mat1b(), seen_but({}), seen_but({0, 1, 2, 3, 4, 5, 6, 7})}) {
+    EXPECT_TRUE(kept_columns(with_unseen(none, mask, mask), none).empty());
+  }
+  cv::Mat1f empty;
+  discard_unseen(empty, {}, {});
+  EXPECT_TRUE(empty.empty());
+}
+
+TEST(DisparityMaskProperty, APixelStaysIffBothCamerasSawIt) {
+  std::mt19937 random(37);
+  std::uniform_real_distribution<float> any(-4.0F, 24.0F);
+  std::bernoulli_distribution often(0.7);
+  for (int round = 0; round < 50; ++round) {
+    cv::Mat1f before(9, 21);
+    cv::Mat1b right(before.size());
+    cv::Mat1b left(before.size());
+    for (int i = 0; i < before.size().area(); ++i) {
+      before(i / 21, i % 21) = any(random);
+      right(i / 21, i % 21) = often(random) ? 255 : 0;
+      left(i / 21, i % 21) = often(random) ? 255 : 0;
+    }
+    cv::Mat1f after = before.clone();
+    discard_unseen(after, right, left);
+    for (int i = 0; i < before.size().area(); ++i) {
+      const int u = i % 21;
+      const int v = i / 21;
+      const long match = std::lround(static_cast<double>(u) + before(v, u));
+      const bool expected =
+          right(v, u) != 0 && match >= 0 && match < 21 && left(v, static_cast<int>(match)) != 0;
+      EXPECT_EQ(!std::isnan(after(v, u)), expected) << u << ", " << v << ": " << before(v, u);
     }
   }
 }

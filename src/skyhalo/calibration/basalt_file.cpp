@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "skyhalo/calibration/image_size.hpp"
 #include "skyhalo/calibration/inverted_poses.hpp"
 #include "skyhalo/calibration/json_value.hpp"
 #include "skyhalo/calibration/lens_input.hpp"
@@ -66,11 +67,8 @@ Lens read_lens(const JsonValue& numbers, LensKind kind, const std::vector<std::s
 }
 
 cv::Size checked_size_px(const JsonValue& width, const JsonValue& height) {
-  const cv::Size size_px(width.whole_number(), height.whole_number());
-  if (size_px.width <= 0 || size_px.height <= 0) {
-    throw(size_px.width <= 0 ? width : height).error("expected a size above 0 px");
-  }
-  return size_px;
+  return {image_side_px(width.whole_number(), error_at(width)),
+          image_side_px(height.whole_number(), error_at(height))};
 }
 
 cv::Size read_size_px(const JsonValue& value) {

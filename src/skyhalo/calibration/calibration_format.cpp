@@ -6,6 +6,7 @@
 
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/calibration/euroc_file.hpp"
+#include "skyhalo/calibration/file_status.hpp"
 #include "skyhalo/calibration/opencv_file.hpp"
 #include "skyhalo/io/text_file.hpp"
 
@@ -113,8 +114,8 @@ CalibrationFormat format_of_folder(const path& folder) {
   if (is_euroc_folder(folder)) {
     return CalibrationFormat::kEuroc;
   }
-  return exists(folder / "calib_cam_to_cam.txt") ? CalibrationFormat::kKittiRaw
-                                                 : CalibrationFormat::kAuto;
+  return is_there(folder / "calib_cam_to_cam.txt") ? CalibrationFormat::kKittiRaw
+                                                   : CalibrationFormat::kAuto;
 }
 
 CalibrationFormat format_of_files(const std::vector<path>& files) {
@@ -153,7 +154,7 @@ CalibrationFormat recognise_format(const std::vector<path>& files) {
   if (files.empty()) {
     throw Error(ErrorKind::kInput, "expected a calibration file");
   }
-  const bool folder = files.size() == 1 && is_directory(files.front());
+  const bool folder = files.size() == 1 && is_folder(files.front());
   const CalibrationFormat format =
       folder ? format_of_folder(files.front()) : format_of_files(files);
   if (format == CalibrationFormat::kAuto) {

@@ -6,6 +6,7 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/calibration/basalt_file.hpp"
 #include "skyhalo/calibration/euroc_file.hpp"
+#include "skyhalo/calibration/image_size.hpp"
 #include "skyhalo/calibration/kalibr_file.hpp"
 #include "skyhalo/calibration/kitti_rig.hpp"
 #include "skyhalo/calibration/opencv_file.hpp"
@@ -46,7 +47,7 @@ ImportedCameras read_cameras(const Files& files, CalibrationFormat format, const
     case CalibrationFormat::kBasalt:
       return read_basalt(files.front());
     default:
-      return read_opencv_stereo(files, o.size_px);
+      return read_opencv_stereo(files, o.size_px, o.opencv_fisheye);
   }
 }
 
@@ -64,12 +65,19 @@ void mount_at_camera(RigDescription& rig, Facing facing) {
 
 RigDescription read_kitti(const path& file,
                           CalibrationFormat format,
-                          const ImportOptions& options) {
+                          const ImportOptions& options,
+                          std::vector<std::string>& warnings) {
   RigDescription rig = format == CalibrationFormat::kKittiRaw
                            ? read_kitti_raw_rig(file, KittiPair::kGrey)
                            : read_kitti_tracking_rig(file, options.size_px);
   if (!rig.T_body_imu || !options.mounting.body_at_imu) {
     mount_at_camera(rig, options.mounting.facing);
+  } else if (options.mounting.facing != Facing::kForward) {
+    warnings.emplace_back(
+        input_error(file,
+                    "KITTI's files say which way the cameras look; the facing that is asked for is "
+                    "left out")
+            .what());
   }
   return rig;
 }
@@ -83,6 +91,12 @@ RigDescription assemble(const ImportedCameras& imported,
   } catch (const Error& error) {
     throw input_error(files.front(), error.what());
   }
+}
+
+void check_given_size(const Files& files, const cv::Size& size_px) {
+  (void)checked_image_size_px(size_px, [&](std::string_view message) {
+    return input_error(files.front(), "size_px: " + std::string(message));
+  });
 }
 
 void expect_size(const RigDescription& rig, const Files& files, const cv::Size& wanted_px) {
@@ -106,9 +120,12 @@ ImportResult import_calibration(const Files& files, const ImportOptions& options
   ImportResult result;
   result.format = recognise ? recognise_format(files) : options.format;
   expect_count(files, result.format);
+  if (options.size_px) {
+    check_given_size(files, *options.size_px);
+  }
   if (result.format == CalibrationFormat::kKittiRaw ||
       result.format == CalibrationFormat::kKittiTracking) {
-    result.rig = read_kitti(files.front(), result.format, options);
+    result.rig = read_kitti(files.front(), result.format, options, result.warnings);
   } else {
     ImportedCameras imported = read_cameras(files, result.format, options);
     result.rig = assemble(imported, files, options);

@@ -1,8 +1,10 @@
 #include "skyhalo/calibration/euroc_file.hpp"
 
 #include <string>
+#include <system_error>
 #include <utility>
 
+#include "skyhalo/calibration/file_status.hpp"
 #include "skyhalo/calibration/inverted_poses.hpp"
 #include "skyhalo/calibration/lens_input.hpp"
 #include "skyhalo/calibration/yaml_geometry.hpp"
@@ -22,13 +24,13 @@ path sensor_file(const path& folder, std::size_t camera) {
 
 /// The folder with cam0 in it: this one, or `mav0` in it.
 path camera_folder(const path& folder) {
-  return exists(sensor_file(folder / "mav0", 0)) ? folder / "mav0" : folder;
+  return is_there(sensor_file(folder / "mav0", 0)) ? folder / "mav0" : folder;
 }
 
 std::vector<path> sensor_files(const path& folder) {
   const path cameras = camera_folder(folder);
   std::vector<path> files;
-  while (exists(sensor_file(cameras, files.size()))) {
+  while (is_there(sensor_file(cameras, files.size()))) {
     files.push_back(sensor_file(cameras, files.size()));
   }
   if (files.empty()) {
@@ -55,7 +57,8 @@ LensKind read_lens_kind(const YamlValue& sensor) {
 
 /// `cam0` of `cam0/sensor.yaml`, else the file's name.
 std::string name_of(const path& file) {
-  const std::string folder = absolute(file).parent_path().filename().string();
+  std::error_code ignored;  // without a working folder the name stays what the path says
+  const std::string folder = absolute(file, ignored).parent_path().filename().string();
   return file.stem() == "sensor" ? folder : file.stem().string();
 }
 
@@ -74,11 +77,11 @@ ImportedCamera read_camera(const path& file, std::vector<std::string>& warnings)
 }  // namespace
 
 bool is_euroc_folder(const path& folder) {
-  return exists(sensor_file(camera_folder(folder), 0));
+  return is_there(sensor_file(camera_folder(folder), 0));
 }
 
 ImportedCameras read_euroc(const std::vector<path>& files) {
-  const bool folder = files.size() == 1 && is_directory(files.front());
+  const bool folder = files.size() == 1 && is_folder(files.front());
   ImportedCameras imported;
   imported.reference_is_imu = true;
   for (const path& file : folder ? sensor_files(files.front()) : files) {

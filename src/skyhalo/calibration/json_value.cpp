@@ -1,9 +1,11 @@
 #include "skyhalo/calibration/json_value.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "skyhalo/calibration/nesting.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
@@ -33,6 +35,31 @@ std::string with_quoted_words(const std::string& text) {
   return quoted;
 }
 
+/// The library's complaint without its own numbering and its words for the place.
+std::string complaint_of(const nlohmann::json::exception& error) {
+  std::string_view text = error.what();
+  const auto remove_to = [&](std::string_view start, std::string_view end) {
+    const std::size_t at = text.starts_with(start) ? text.find(end) : std::string_view::npos;
+    text.remove_prefix(at == std::string_view::npos ? 0 : at + end.size());
+  };
+  remove_to("[json.exception.", "] ");
+  remove_to("parse error at ", ": ");
+  return "not valid JSON: " + std::string(text);
+}
+
+nlohmann::json parse(const std::filesystem::path& file, const std::string& text) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t read = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(read);
+    const auto lines = std::count(text.begin(), end, '\n');
+    throw input_error(file, static_cast<int>(lines) + 1, complaint_of(error));
+  } catch (const nlohmann::json::exception& error) {
+    throw input_error(file, complaint_of(error));
+  }
+}
+
 }  // namespace
 
 JsonValue::JsonValue(std::string file, std::string path, nlohmann::json node)
@@ -43,15 +70,12 @@ JsonValue JsonValue::load(const std::filesystem::path& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw input_error(file, "is empty");
   }
-  try {
-    nlohmann::json document = nlohmann::json::parse(with_quoted_words(text));
-    if (!document.is_object()) {
-      throw input_error(file, "expected a JSON object");
-    }
-    return {file.string(), "", std::move(document)};
-  } catch (const nlohmann::json::exception& error) {
-    throw input_error(file, error.what());
+  refuse_deep_nesting(file, text);  // values are copied, level by level
+  nlohmann::json document = parse(file, with_quoted_words(text));
+  if (!document.is_object()) {
+    throw input_error(file, "expected a JSON object");
   }
+  return {file.string(), "", std::move(document)};
 }
 
 JsonValue JsonValue::at(const std::string& key) const {

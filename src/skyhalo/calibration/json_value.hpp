@@ -13,8 +13,9 @@ namespace skyhalo {
 /// that every complaint about it names them. Internal to this layer and not installed.
 class JsonValue {
  public:
-  /// The document of a file. Throws `Error` (input) when the file cannot be read, is empty or is no
-  /// JSON object. NaN and Infinity are read as texts, though JSON has no such words.
+  /// The document of a file. Throws `Error` (input) when the file cannot be read, is empty, no JSON
+  /// object or nested deeper than 100 levels, with the line where its syntax is wrong. NaN and
+  /// Infinity are read as texts, though JSON has no such words.
   [[nodiscard]] static JsonValue load(const std::filesystem::path& file);
 
   [[nodiscard]] bool has(const std::string& key) const { return node_.contains(key); }

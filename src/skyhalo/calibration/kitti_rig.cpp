@@ -1,9 +1,10 @@
 #include "skyhalo/calibration/kitti_rig.hpp"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
+#include "skyhalo/calibration/file_status.hpp"
+#include "skyhalo/calibration/image_size.hpp"
 #include "skyhalo/calibration/imported_cameras.hpp"
 #include "skyhalo/calibration/key_value_file.hpp"
 #include "skyhalo/calibration/kitti_projection.hpp"
@@ -30,17 +31,12 @@ RigDescription rectified_rig(const cv::Size& size_px,
                      .max_range_m = {}}}};
 }
 
-int whole_px(const KeyValueFile& file, const std::string& key, double value) {
-  constexpr double kLargest = 1e6;
-  if (!(value >= 1.0 && value <= kLargest) || std::trunc(value) != value) {
-    throw file.error(key, "expected a width and a height of whole pixels above 0");
-  }
-  return static_cast<int>(value);
-}
-
 cv::Size read_size_px(const KeyValueFile& file, const std::string& key) {
   const std::vector<double> size = file.numbers(key, 2);
-  return {whole_px(file, key, size[0]), whole_px(file, key, size[1])};
+  const ErrorAt error_at = [&](std::string_view message) {
+    return file.error(key, std::string(message));
+  };
+  return {image_side_px(size[0], error_at), image_side_px(size[1], error_at)};
 }
 
 /// The size of both rectified images.
@@ -91,14 +87,14 @@ constexpr const char* kCamerasFile = "calib_cam_to_cam.txt";
 bool leads_to_imu(const path& cameras_file) {
   const path folder = cameras_file.parent_path();
   return cameras_file.filename() == kCamerasFile &&
-         (exists(folder / "calib_velo_to_cam.txt") || exists(folder / "calib_imu_to_velo.txt"));
+         (is_there(folder / "calib_velo_to_cam.txt") || is_there(folder / "calib_imu_to_velo.txt"));
 }
 
 }  // namespace
 
 RigDescription read_kitti_raw_rig(const path& day_folder_or_file, KittiPair pair) {
   const path cameras_file =
-      is_directory(day_folder_or_file) ? day_folder_or_file / kCamerasFile : day_folder_or_file;
+      is_folder(day_folder_or_file) ? day_folder_or_file / kCamerasFile : day_folder_or_file;
   const KeyValueFile cameras(cameras_file);
   const cv::Size size_px = read_pair_size_px(cameras, pair);
   if (!leads_to_imu(cameras_file)) {
@@ -120,7 +116,7 @@ RigDescription read_kitti_tracking_rig(const path& file, std::optional<cv::Size>
   const KittiProjections projections = read_kitti_projections(values, "P2", "P3");
   const Pose T_right_imu = read_pose(values, projections.T_right_reference);
   if (!size_px) {
-    throw input_error(file, "the size of the images is not in this file; give it with --size WxH");
+    throw input_error(file, "the size of the images is not in this file and must be given");
   }
   RigDescription rig = rectified_rig(*size_px, projections.pair, T_right_imu.inverse());
   rig.T_body_imu = Pose::Identity();

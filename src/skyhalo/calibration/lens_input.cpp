@@ -62,6 +62,17 @@ Lens built(const LensInput& input, const Shape& shape) {
 
 }  // namespace
 
+Intrinsics intrinsics_from(std::span<const double> matrix, const ErrorAt& error_at) {
+  if (matrix.size() != 9) {
+    throw error_at("expected 9 numbers, found " + std::to_string(matrix.size()));
+  }
+  const bool zeros = matrix[1] == 0.0 && matrix[3] == 0.0 && matrix[6] == 0.0 && matrix[7] == 0.0;
+  if (!zeros || matrix[8] != 1.0) {
+    throw error_at("expected fx 0 cx, 0 fy cy, 0 0 1");
+  }
+  return {matrix[0], matrix[4], matrix[2], matrix[5]};
+}
+
 std::vector<double> no_distortion() {
   return std::vector<double>(kRadialTangentialMost, 0.0);
 }

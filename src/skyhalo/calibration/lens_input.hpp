@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,10 @@ struct LensInput {
 /// wrong count of coefficients. Of 12 or 14 radial-tangential ones (thin prism, tilted sensor) the
 /// last must be 0.
 [[nodiscard]] Lens lens_from(const LensInput& input);
+
+/// The numbers of a camera matrix, row by row: fx 0 cx, 0 fy cy, 0 0 1. Throws `error_at` for any
+/// other and for any other count.
+[[nodiscard]] Intrinsics intrinsics_from(std::span<const double> matrix, const ErrorAt& error_at);
 
 /// No distortion at all, for `LensInput::distortion` of the radial-tangential kind.
 [[nodiscard]] std::vector<double> no_distortion();

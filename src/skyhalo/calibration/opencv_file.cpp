@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "skyhalo/calibration/image_size.hpp"
 #include "skyhalo/calibration/lens_input.hpp"
 #include "skyhalo/calibration/opencv_storage.hpp"
 
@@ -62,11 +63,14 @@ ErrorAt error_at(const OpencvEntry& entry) {
   return [entry](std::string_view message) { return entry.error(message); };
 }
 
-/// The lens model that an entry names.
-LensKind lens_kind_of(const OpencvEntry& model) {
-  constexpr std::array<std::string_view, 5> kRadialTangential = {
-      "plumb_bob", "radtan", "radial-tangential", "rational_polynomial", "pinhole"};
+/// The lens model that an entry names; none for pinhole, which both may be called.
+std::optional<LensKind> lens_kind_of(const OpencvEntry& model) {
+  constexpr std::array<std::string_view, 4> kRadialTangential = {
+      "plumb_bob", "radtan", "radial-tangential", "rational_polynomial"};
   const std::string name = model.text();
+  if (name == "pinhole") {
+    return std::nullopt;
+  }
   if (name == "equidistant" || name == "fisheye") {
     return LensKind::kKannalaBrandt;
   }
@@ -79,62 +83,81 @@ LensKind lens_kind_of(const OpencvEntry& model) {
                     "radial-tangential, rational_polynomial and pinhole");
 }
 
-LensKind read_lens_kind(const OpencvStorage& storage) {
+/// The lens model that the files name; none when they do not.
+std::optional<LensKind> find_lens_kind(const OpencvStorage& storage) {
   if (const auto xi = storage.find(kOmnidirectional)) {
     throw xi->error(
         "the omnidirectional model is not supported; supported are the radial-tangential and the "
         "fisheye model");
   }
-  if (const auto flag = storage.find("fisheye_model"); flag && flag->text() == "1") {
+  const auto flag = storage.find("fisheye_model");
+  if (flag && flag->text() == "1") {
     return LensKind::kKannalaBrandt;
   }
   const auto model = storage.find(kModel);
-  return model ? lens_kind_of(*model) : LensKind::kRadialTangential;
+  const std::optional<LensKind> named = model ? lens_kind_of(*model) : std::nullopt;
+  return named || !flag ? named : LensKind::kRadialTangential;
 }
 
-Intrinsics read_matrix(const OpencvEntry& entry) {
-  const std::vector<double> k = entry.numbers(9);
-  if (k[1] != 0.0 || k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-    throw entry.error("expected fx 0 cx, 0 fy cy, 0 0 1");
+/// The lens model that the files name or `fisheye` asks for, which must not contradict each other.
+std::optional<LensKind> wanted_lens_kind(const OpencvStorage& storage, bool fisheye) {
+  const std::optional<LensKind> named = find_lens_kind(storage);
+  if (fisheye && named && *named != LensKind::kKannalaBrandt) {
+    throw storage.error("the lens model that they name is not the fisheye model that is asked for");
   }
-  return {k[0], k[4], k[2], k[5]};
+  return fisheye ? LensKind::kKannalaBrandt : named;
 }
 
-Lens read_lens(const OpencvStorage& storage, Keys matrix_keys, Keys distortion_keys) {
-  const OpencvEntry matrix = storage.at(matrix_keys);
-  const OpencvEntry distortion = storage.at(distortion_keys);
+void warn_of_unnamed_model(const OpencvEntry& distortion,
+                           std::size_t count,
+                           std::vector<std::string>& warnings) {
+  if (count == 4) {
+    warnings.emplace_back(distortion
+                              .error("4 numbers and no word of the model: taken for "
+                                     "radial-tangential; cv::fisheye writes 4 too")
+                              .what());
+  }
+}
+
+/// What one camera's matrix and coefficients may be called.
+struct CameraKeys {
+  Keys matrix;
+  Keys distortion;
+};
+
+Lens read_lens(const OpencvStorage& storage,
+               const CameraKeys& keys,
+               const std::optional<LensKind>& kind,
+               std::vector<std::string>& warnings) {
+  const OpencvEntry matrix = storage.at(keys.matrix);
+  const OpencvEntry distortion = storage.at(keys.distortion);
   LensInput input;
-  input.kind = read_lens_kind(storage);
-  input.intrinsics = read_matrix(matrix);
+  input.kind = kind.value_or(LensKind::kRadialTangential);
+  input.intrinsics = intrinsics_from(matrix.numbers(9), error_at(matrix));
   input.distortion = distortion.numbers();
   input.intrinsics_at = error_at(matrix);
   input.distortion_at = error_at(distortion);
-  return lens_from(input);
-}
-
-int read_length_px(const OpencvEntry& entry, double value) {
-  constexpr double kLargest = 1e6;
-  if (!(value >= 1.0 && value <= kLargest) || value != static_cast<int>(value)) {
-    throw entry.error("expected whole numbers of pixels above 0");
+  if (!kind) {
+    warn_of_unnamed_model(distortion, input.distortion.size(), warnings);
   }
-  return static_cast<int>(value);
+  return lens_from(input);
 }
 
 cv::Size read_size_px(const OpencvStorage& storage, const std::optional<cv::Size>& given_px) {
   if (const auto size = storage.find(kSize)) {
     const std::vector<double> numbers = size->numbers(2);
-    return {read_length_px(*size, numbers[0]), read_length_px(*size, numbers[1])};
+    return {image_side_px(numbers[0], error_at(*size)), image_side_px(numbers[1], error_at(*size))};
   }
   const auto width = storage.find("image_width");
   const auto height = storage.find("image_height");
   if (width && height) {
-    return {read_length_px(*width, width->numbers(1)[0]),
-            read_length_px(*height, height->numbers(1)[0])};
+    return {image_side_px(width->numbers(1)[0], error_at(*width)),
+            image_side_px(height->numbers(1)[0], error_at(*height))};
   }
   if (!given_px) {
     throw storage.error(
-        "image_size: this key is missing (nor imageSize, image_width and image_height); give the "
-        "size of the images with --size WxH");
+        "image_size: this key is missing (nor imageSize, image_width and image_height); the "
+        "size of the images must be given");
   }
   return *given_px;
 }
@@ -149,12 +172,14 @@ Pose read_pose(const OpencvStorage& storage, std::vector<std::string>& warnings)
 }  // namespace
 
 ImportedCameras read_opencv_stereo(const std::vector<std::filesystem::path>& files,
-                                   std::optional<cv::Size> size_px) {
+                                   std::optional<cv::Size> size_px,
+                                   bool fisheye) {
   const OpencvStorage storage(files);
-  const Lens left = read_lens(storage, kLeftMatrix, kLeftDistortion);
-  const Lens right = read_lens(storage, kRightMatrix, kRightDistortion);
-  const cv::Size used_px = read_size_px(storage, size_px);
+  const std::optional<LensKind> kind = wanted_lens_kind(storage, fisheye);
   ImportedCameras imported;
+  const Lens left = read_lens(storage, {kLeftMatrix, kLeftDistortion}, kind, imported.warnings);
+  const Lens right = read_lens(storage, {kRightMatrix, kRightDistortion}, kind, imported.warnings);
+  const cv::Size used_px = read_size_px(storage, size_px);
   const Pose T_right_left = read_pose(storage, imported.warnings);
   imported.cameras = {{"left", {used_px, left}},
                       {"right", {used_px, right}, T_right_left.inverse()}};

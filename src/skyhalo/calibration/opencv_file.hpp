@@ -24,11 +24,14 @@ namespace skyhalo {
 ///
 /// The lens is radial-tangential with 4, 5 or 8 coefficients. Four alone do not tell it from the
 /// fisheye model: a key must say so, `distortion_model` or `camera_model` with `equidistant` or
-/// `fisheye`, or `fisheye_model: 1`. The omnidirectional model (`xi`, `xi1`) is refused.
+/// `fisheye`, or `fisheye_model: 1`, or `fisheye` must ask for it; else a warning says what they
+/// were taken for. The omnidirectional model (`xi`, `xi1`) is refused.
 ///
-/// Throws `Error` (input) naming file and key for what is missing, malformed or not supported.
+/// Throws `Error` (input) naming file and key for what is missing, malformed or not supported, and
+/// when `fisheye` is asked for and the files name another model.
 [[nodiscard]] ImportedCameras read_opencv_stereo(const std::vector<std::filesystem::path>& files,
-                                                 std::optional<cv::Size> size_px);
+                                                 std::optional<cv::Size> size_px,
+                                                 bool fisheye = false);
 
 /// What a camera matrix of such a file may be called, left (0) or right (1).
 [[nodiscard]] std::span<const std::string_view> opencv_camera_matrix_keys(int camera) noexcept;

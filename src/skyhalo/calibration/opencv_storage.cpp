@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "skyhalo/calibration/nesting.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
@@ -28,11 +29,22 @@ cv::FileStorage parse(const std::filesystem::path& file, const std::string& text
   }
 }
 
+/// OpenCV 4.6 crashes on some XML files that end in the middle.
+void refuse_cut_xml(const std::filesystem::path& file, std::string_view text) {
+  text.remove_prefix(text.find_first_not_of(" \t\r\n"));
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  if (text.starts_with('<') && !text.ends_with("</opencv_storage>")) {
+    throw input_error(file, "breaks off: expected </opencv_storage> at its end");
+  }
+}
+
 cv::FileStorage open(const std::filesystem::path& file) {
   const std::string text = read_bytes(file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw input_error(file, "is empty");
   }
+  refuse_deep_nesting(file, text);
+  refuse_cut_xml(file, text);
   cv::FileStorage storage = parse(file, text);
   if (!storage.isOpened() || storage.root().empty()) {
     throw input_error(file, "is no YAML, XML or JSON that OpenCV can read");

@@ -35,7 +35,8 @@ struct OpencvEntry {
 /// layer.
 class OpencvStorage {
  public:
-  /// Throws `Error` (input) naming the file when one cannot be read, is empty or malformed.
+  /// Throws `Error` (input) naming the file when one cannot be read, is empty, malformed
+  /// or nested deeper than 100 levels.
   explicit OpencvStorage(std::span<const std::filesystem::path> files);
 
   /// The first of these keys that is there; none when none is.

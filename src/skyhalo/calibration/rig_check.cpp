@@ -1,10 +1,11 @@
 #include "skyhalo/calibration/rig_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/base/number_text.hpp"
 #include "skyhalo/calibration/rig_findings.hpp"
 #include "skyhalo/geometry/angle.hpp"
 
@@ -32,14 +33,36 @@ double seen_share(const StereoPair& pair) {
   return static_cast<double>(seen) / (kRaster * kRaster);
 }
 
+/// Share of the matched pixels that masks and rcrop leave, on a raster of 64 x 64.
+double kept_share(const StereoPair& pair, const cv::Size& matched_px, int downscale, int rcrop_px) {
+  constexpr int kRaster = 64;
+  int kept = 0;
+  for (int row = 0; row < kRaster; ++row) {
+    for (int col = 0; col < kRaster; ++col) {
+      const cv::Point at((2 * col + 1) * matched_px.width / (2 * kRaster),
+                         (2 * row + 1) * matched_px.height / (2 * kRaster));
+      const bool masked = std::ranges::any_of(
+          pair.masks_px, [&](const cv::Rect& mask) { return mask.contains(at * downscale); });
+      kept += !masked && matched_px.width - at.x > rcrop_px ? 1 : 0;
+    }
+  }
+  return static_cast<double>(kept) / (kRaster * kRaster);
+}
+
 PairReport report_on(const StereoPair& pair, const RigCheckSettings& settings) {
   const int downscale = pair.downscale.value_or(settings.downscale);
   const PairModel matched = downscaled(pair.model, downscale);
+  const cv::Size matched_px(pair.image_size_px.width / downscale,
+                            pair.image_size_px.height / downscale);
+  const int rcrop_px = pair.rcrop_px.value_or(settings.rcrop_px);
   return {.name = pair.name,
           .raw = pair.raw.has_value(),
           .model = pair.model,
           .size_px = pair.image_size_px,
           .downscale = downscale,
+          .matched_px = matched_px,
+          .kept_share = kept_share(pair, matched_px, downscale, rcrop_px),
+          .max_range_m = pair.max_range_m,
           .field = field_of_view(pair.model, pair.image_size_px),
           .axis_body = pair.T_body_camera.linear().col(2),
           .rows_body = pair.T_body_camera.linear().col(0),
@@ -51,10 +74,7 @@ PairReport report_on(const StereoPair& pair, const RigCheckSettings& settings) {
 }
 
 std::string rounded_degrees(double angle_rad) {
-  std::array<char, 32> text{};
-  const int length =
-      std::snprintf(text.data(), text.size(), "%.1f degrees", std::abs(deg_from_rad(angle_rad)));
-  return {text.data(), static_cast<std::size_t>(length)};
+  return number_text("%.1f degrees", std::abs(deg_from_rad(angle_rad)));
 }
 
 }  // namespace
@@ -85,7 +105,8 @@ std::string in_words(const Eigen::Vector3d& direction_body) {
 
 RigReport check_rig(const RigDescription& rig, const RigCheckSettings& settings) {
   RigReport report;
-  for (const PairDescription& pair : rig.pairs) {
+  for (std::size_t i = 0; i < rig.pairs.size(); ++i) {
+    const PairDescription& pair = rig.pairs[i];
     const auto warn = [&](const std::string& finding) {
       report.warnings.push_back("pair " + pair.name + ": " + finding);
     };
@@ -100,7 +121,8 @@ RigReport check_rig(const RigDescription& rig, const RigCheckSettings& settings)
       }
     } catch (const Error& error) {
       const std::string message = error.what();  // pairs[0].KEY: ...
-      warn("cannot be used: " + message.substr(message.find('.') + 1));
+      report.unusable.push_back("pairs[" + std::to_string(i) + "]" +
+                                message.substr(message.find('.')));
     }
   }
   return report;

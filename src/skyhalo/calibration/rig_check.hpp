@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace skyhalo {
 /// What ranges and resolutions are judged by.
 struct RigCheckSettings {
   int downscale = 2;             ///< for pairs that do not say
+  int rcrop_px = 64;             ///< for pairs that do not say
   double max_disparity_px = 64;  ///< search range in the matched image
   double delta_d_px = 0.5;       ///< expected disparity error in the matched image
   double voxel_m = 0.5;          ///< edge of a map cell
@@ -22,8 +24,11 @@ struct PairReport {
   PairModel model;   ///< at full resolution
   cv::Size size_px;  ///< of the rectified images, full resolution
   int downscale = 1;
-  FieldOfView field;                 ///< edge to edge
-  Eigen::Vector3d axis_body;         ///< where the rectified right camera looks, unit vector
+  cv::Size matched_px;                     ///< size of the matched images
+  double kept_share = 1.0;                 ///< of their pixels that masks and rcrop leave
+  std::optional<double> max_range_m = {};  ///< as the rig says it
+  FieldOfView field;                       ///< edge to edge
+  Eigen::Vector3d axis_body;               ///< where the rectified right camera looks, unit vector
   Eigen::Vector3d rows_body;         ///< along its image rows, unit vector; the way of the baseline
   Eigen::Vector3d position_body_m;   ///< of the right camera
   double seen_share = 1.0;           ///< of the rectified pixels that both raw cameras see
@@ -35,9 +40,10 @@ struct PairReport {
 struct RigReport {
   std::vector<PairReport> pairs;  ///< of those that can be used
   std::vector<std::string> warnings;
+  std::vector<std::string> unusable;  ///< `pairs[i].KEY: ...` of the pairs that cannot be used
 };
 
-/// Looks a rig over without refusing anything: a pair that cannot be rectified becomes a warning.
+/// Looks a rig over without refusing anything.
 [[nodiscard]] RigReport check_rig(const RigDescription& rig, const RigCheckSettings& settings);
 
 /// A direction of the body frame in words: "forward", "left, 10.0 degrees towards back, 5.0

@@ -1,6 +1,8 @@
 #include "skyhalo/calibration/rig_file.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <set>
 
 #include "skyhalo/base/error.hpp"
@@ -14,6 +16,8 @@ namespace skyhalo {
 namespace {
 
 constexpr int kLargestImage = 16384;
+
+constexpr double kFarthest_m = 1000.0;
 
 /// Of pairs of both kinds.
 constexpr std::array<std::string_view, 6> kOptionalKeys{
@@ -62,8 +66,10 @@ std::vector<cv::Rect> read_masks(const YamlValue& value) {
   std::vector<cv::Rect> masks;
   for (const YamlValue& item : value.items()) {
     const std::vector<int> r = whole_numbers(item, 4);
-    if (r[2] <= 0 || r[3] <= 0) {
-      throw item.error("expected [u, v, width, height] with sizes above 0");
+    const bool sane = std::ranges::all_of(r, [](int n) { return std::abs(n) <= kLargestImage; });
+    if (r[2] <= 0 || r[3] <= 0 || !sane) {
+      throw item.error("expected [u, v, width, height] with sizes above 0 and all within " +
+                       std::to_string(kLargestImage));
     }
     masks.emplace_back(r[0], r[1], r[2], r[3]);
   }
@@ -118,7 +124,12 @@ VirtualPairWish read_wish(const YamlValue& value) {
 }
 
 double read_baseline(const YamlValue& section) {
-  return positive(section.at("baseline_m"));
+  const YamlValue value = section.at("baseline_m");
+  const double baseline_m = positive(value);
+  if (baseline_m > kFarthest_m) {
+    throw value.error("expected a length below 1000 m");
+  }
+  return baseline_m;
 }
 
 PairModel read_pinhole(const YamlValue& value) {
@@ -225,7 +236,9 @@ RigFile read_rig(const YamlValue& document) {
   for (const YamlValue& pair : pairs.items()) {
     rig.description.pairs.push_back(PairReader(pair, rig.warnings).read());
     const std::string& name = rig.description.pairs.back().name;
-    if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.front() == '.') {
+    const bool printable = std::ranges::none_of(
+        name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '/' || c == '\\'; });
+    if (name.empty() || name.front() == '.' || !printable) {
       throw pair.error("name", "expected a name that can be part of a file's name");
     }
     if (!names.insert(name).second) {

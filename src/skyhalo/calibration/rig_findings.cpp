@@ -1,9 +1,9 @@
 #include "skyhalo/calibration/rig_findings.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "skyhalo/base/number_text.hpp"
 #include "skyhalo/geometry/angle.hpp"
 
 namespace skyhalo {
@@ -12,15 +12,10 @@ namespace {
 constexpr double kLongestBaseline_m = 3.0;
 constexpr double kShortestBaseline_m = 0.01;
 constexpr double kFarthestCamera_m = 10.0;
-
-std::string text_of(const char* format, double value) {
-  std::array<char, 32> text{};
-  const int length = std::snprintf(text.data(), text.size(), format, value);
-  return {text.data(), static_cast<std::size_t>(length)};
-}
+const cv::Size kLeastMatched(64, 48);
 
 std::string metres(double length_m) {
-  return text_of("%.4g", length_m) + " m";
+  return number_text("%.4g", length_m) + " m";
 }
 
 void check_lengths(double pair_baseline_m,
@@ -28,8 +23,8 @@ void check_lengths(double pair_baseline_m,
                    std::vector<std::string>& findings) {
   if (pair_baseline_m > kLongestBaseline_m) {
     findings.push_back("the baseline of " + metres(pair_baseline_m) +
-                       " looks like millimetres; as such it would be " +
-                       metres(pair_baseline_m / 1000.0));
+                       " looks like millimetres or centimetres: " +
+                       metres(pair_baseline_m / 1000.0) + " or " + metres(pair_baseline_m / 100.0));
   } else if (pair_baseline_m < kShortestBaseline_m) {
     findings.push_back("the baseline of " + metres(pair_baseline_m) + " is very short");
   }
@@ -57,7 +52,7 @@ void check_side(const RawPair& cameras,
   const Pose inverted = T_body_camera * T_body_left.inverse();
   const double off_rows = deg_from_rad(std::acos(std::clamp(-to_left.x(), -1.0, 1.0)));
   std::string finding =
-      "the baseline lies " + text_of("%.0f", off_rows) + " degrees off the image rows: ";
+      "the baseline lies " + number_text("%.0f", off_rows) + " degrees off the image rows: ";
   finding += std::abs(inverted.translation().normalized().x()) > 0.9
                  ? "the camera poses look inverted (T_camera_body instead of T_body_camera)"
                  : "the cameras stand above each other, or the extrinsics are wrong";
@@ -113,16 +108,30 @@ std::vector<std::string> findings_on(const PairReport& pair) {
   if (up > 60.0) {
     findings.emplace_back(
         "looks up; is T_body_camera given in the axes of an IMU? Body is x forward, y left, z up");
-  } else if (up > -60.0 && columns_body.z() > -0.7) {
+  } else if (std::abs(pair.rows_body.z()) > 0.7) {
     findings.emplace_back(
-        columns_body.z() > 0.7
-            ? "hangs upside down"
-            : "lies on its side; is T_body_camera given in the axes of an IMU? Body is x forward, "
-              "y left, z up");
+        "lies on its side; is T_body_camera given in the axes of an IMU? Body is x forward, y "
+        "left, "
+        "z up");
+  } else if (columns_body.z() > 0.3) {
+    findings.emplace_back("hangs upside down");
+  }
+  if (pair.matched_px.width < kLeastMatched.width ||
+      pair.matched_px.height < kLeastMatched.height) {
+    findings.push_back("the matched images have only " + std::to_string(pair.matched_px.width) +
+                       " x " + std::to_string(pair.matched_px.height) + " pixels");
+  }
+  if (pair.kept_share < 0.1) {
+    findings.push_back("masks_px and rcrop_px leave only " +
+                       number_text("%.0f", 100.0 * pair.kept_share) + " % of the image");
+  }
+  if (pair.max_range_m && *pair.max_range_m <= pair.min_range_m) {
+    findings.push_back("max_range_m lies below " + metres(pair.min_range_m) +
+                       ", the nearest that the search for disparities reaches");
   }
   if (pair.seen_share < 0.7) {
     findings.push_back(
-        "the cameras fill only " + text_of("%.0f", 100.0 * pair.seen_share) +
+        "the cameras fill only " + number_text("%.0f", 100.0 * pair.seen_share) +
         " % of the rectified image; hfov_deg or vfov_deg is larger than their field");
   }
   return findings;

@@ -11,13 +11,22 @@ double angle_rad(const YamlValue& value, std::string_view key) {
   return angle_deg ? rad_from_deg(angle_deg->number()) : 0.0;
 }
 
+/// Throws for a place that is no vehicle's.
+Pose checked(const Pose& T, const YamlValue& value) {
+  constexpr double kFarthest_m = 1000.0;
+  if (!(T.translation().cwiseAbs().maxCoeff() <= kFarthest_m)) {
+    throw value.error("expected a place within 1000 m");
+  }
+  return T;
+}
+
 }  // namespace
 
 Pose read_placement(const YamlValue& value,
                     const Eigen::Matrix3d& R_outer_inner,
                     std::vector<std::string>& warnings) {
   if (!value.is_map() || value.find("data")) {
-    return read_pose(value, warnings);
+    return checked(read_pose(value, warnings), value);
   }
   value.refuse_other_keys({"position_m", "yaw_deg", "pitch_deg", "roll_deg"});
   const std::vector<double> t_m = value.at("position_m").numbers(3);
@@ -26,7 +35,7 @@ Pose read_placement(const YamlValue& value,
        Eigen::AngleAxisd(angle_rad(value, "pitch_deg"), Eigen::Vector3d::UnitY()) *
        Eigen::AngleAxisd(angle_rad(value, "roll_deg"), Eigen::Vector3d::UnitX()))
           .toRotationMatrix();
-  return make_pose(R * R_outer_inner, {t_m[0], t_m[1], t_m[2]});
+  return checked(make_pose(R * R_outer_inner, {t_m[0], t_m[1], t_m[2]}), value);
 }
 
 }  // namespace skyhalo

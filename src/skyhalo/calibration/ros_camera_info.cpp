@@ -35,22 +35,35 @@ std::vector<double> exactly(const YamlValue& file, const char* key, std::size_t 
 }
 
 cv::Size read_image_size_px(const YamlValue& file) {
-  const cv::Size size_px(file.at("image_width").whole_number(),
-                         file.at("image_height").whole_number());
-  for (const char* const key : {"image_width", "image_height"}) {
-    if (file.at(key).whole_number() <= 0) {
-      throw file.error(key, "expected a size above 0 px");
-    }
-  }
-  return size_px;
+  return {read_side_px(file.at("image_width")), read_side_px(file.at("image_height"))};
 }
 
-Intrinsics read_camera_matrix(const YamlValue& file) {
-  const std::vector<double> k = exactly(file, kCameraMatrix, 9);
-  if (k[1] != 0.0 || k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-    throw file.error(kCameraMatrix, "expected fx 0 cx, 0 fy cy, 0 0 1");
+/// Lens and projection mean whole images with all their pixels.
+void refuse_binning(const YamlValue& file) {
+  for (const char* const key : {"binning_x", "binning_y"}) {
+    const auto binning = file.find(key);
+    if (binning && binning->whole_number() != 0 && binning->whole_number() != 1) {
+      throw binning->error("binned images are not supported; expected 0 or 1, found " +
+                           binning->text());
+    }
   }
-  return {k[0], k[4], k[2], k[5]};
+}
+
+void refuse_cut(const YamlValue& roi, const char* key, std::initializer_list<int> whole) {
+  const auto value = roi.find(key);
+  if (value && std::find(whole.begin(), whole.end(), value->whole_number()) == whole.end()) {
+    throw value->error("a part of the image is not supported; expected " +
+                       std::to_string(*(whole.end() - 1)) + ", found " + value->text());
+  }
+}
+
+void refuse_part(const YamlValue& file, const cv::Size& size_px) {
+  if (const auto roi = file.find("roi")) {
+    refuse_cut(*roi, "x_offset", {0});
+    refuse_cut(*roi, "y_offset", {0});
+    refuse_cut(*roi, "width", {size_px.width, 0});
+    refuse_cut(*roi, "height", {size_px.height, 0});
+  }
 }
 
 void expect_count(const YamlValue& file,
@@ -91,7 +104,8 @@ LensKind read_lens_kind(const YamlValue& file, std::size_t count) {
 Lens read_lens(const YamlValue& file) {
   const std::vector<double> distortion = matrix_numbers(file.at(kDistortion));
   return lens_from({.kind = read_lens_kind(file, distortion.size()),
-                    .intrinsics = read_camera_matrix(file),
+                    .intrinsics = intrinsics_from(exactly(file, kCameraMatrix, 9),
+                                                  error_at(file, kCameraMatrix)),
                     .distortion = distortion,
                     .intrinsics_at = error_at(file, kCameraMatrix),
                     .distortion_at = error_at(file, kDistortion)});
@@ -107,7 +121,10 @@ Eigen::Vector3d read_shift_m(const YamlValue& file) {
 }
 
 CameraInfo read_info(const YamlValue& file, std::vector<std::string>& warnings) {
-  return {{read_image_size_px(file), read_lens(file)},
+  const cv::Size size_px = read_image_size_px(file);
+  refuse_binning(file);
+  refuse_part(file, size_px);
+  return {{size_px, read_lens(file)},
           rotation_from(exactly(file, kRotation, 9), error_at(file, kRotation), warnings),
           read_shift_m(file)};
 }

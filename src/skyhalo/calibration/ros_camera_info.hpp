@@ -16,6 +16,7 @@ namespace skyhalo {
 /// `p_right = R_right^-1 (R_left p_left + t)`.
 ///
 /// Throws `Error` (input) with file, line and key for what is missing, malformed or not supported,
+/// which `binning_x` and `binning_y` other than 0 or 1 and a `roi` of less than the image are too,
 /// and when P[0][3] is 0 in both files: then they say nothing of each other.
 [[nodiscard]] ImportedCameras read_ros_camera_info(const std::filesystem::path& left,
                                                    const std::filesystem::path& right);

@@ -57,8 +57,9 @@ Eigen::Matrix3d rotation_from(const Eigen::Matrix3d& R,
   if (R.determinant() < 0.0) {
     throw error_at("the rotation is a mirror image (its determinant is -1)");
   }
-  // What is exact but for rounding stays to the last bit, so that files can be read back unchanged.
-  return distance <= 1e-14 ? R : nearest_rotation(R);
+  // What was only printed with few digits stays to the last bit: files can be read back unchanged,
+  // and mean what other readers of them take them for.
+  return distance <= kWarnAbove ? R : nearest_rotation(R);
 }
 
 Eigen::Matrix3d rotation_from(std::span<const double> numbers,

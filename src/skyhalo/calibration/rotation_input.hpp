@@ -18,8 +18,9 @@ using ErrorAt = std::function<Error(std::string_view message)>;
 /// The rotation nearest to R (least squares of the entries).
 [[nodiscard]] Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& R);
 
-/// The rotation nearest to the numbers that a file gives for one. Warns when R R' is more than 1e-5
-/// off the identity; throws `error_at` when it is more than 1e-3 off or R is a mirror image.
+/// The rotation that a file gives: as it is where R R' is at most 1e-5 off the identity, as printed
+/// digits leave it; else the nearest one, with a warning. Throws `error_at` when it is more than
+/// 1e-3 off or R is a mirror image.
 [[nodiscard]] Eigen::Matrix3d rotation_from(const Eigen::Matrix3d& R,
                                             const ErrorAt& error_at,
                                             std::vector<std::string>& warnings);

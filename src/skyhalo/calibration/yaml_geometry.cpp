@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "skyhalo/calibration/image_size.hpp"
+
 namespace skyhalo {
 namespace {
 
@@ -48,11 +50,11 @@ cv::Size read_size_px(const YamlValue& value) {
     throw value.error("expected width and height, found " + std::to_string(items.size()) +
                       " numbers");
   }
-  const cv::Size size_px(items[0].whole_number(), items[1].whole_number());
-  if (size_px.width <= 0 || size_px.height <= 0) {
-    throw value.error("expected a width and a height above 0");
-  }
-  return size_px;
+  return {read_side_px(items[0]), read_side_px(items[1])};
+}
+
+int read_side_px(const YamlValue& value) {
+  return image_side_px(value.whole_number(), error_at(value));
 }
 
 Intrinsics read_intrinsics(const YamlValue& value) {

@@ -23,8 +23,11 @@ namespace skyhalo {
 /// A rigid transform given as a 4x4 matrix in either form (m). Throws and warns as `pose_from`.
 [[nodiscard]] Pose read_pose(const YamlValue& value, std::vector<std::string>& warnings);
 
-/// An image size of two whole numbers above 0, `[width, height]`.
+/// An image size of two whole numbers in 1...16384, `[width, height]`.
 [[nodiscard]] cv::Size read_size_px(const YamlValue& value);
+
+/// One side of an image, 1...16384 (px).
+[[nodiscard]] int read_side_px(const YamlValue& value);
 
 /// Focal lengths and principal point `[fu, fv, cu, cv]`.
 [[nodiscard]] Intrinsics read_intrinsics(const YamlValue& value);

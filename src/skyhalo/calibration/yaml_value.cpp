@@ -47,12 +47,17 @@ std::optional<YamlValue> YamlValue::find(std::string_view key) const {
   if (!node_.IsMap()) {
     throw wrong_type("keys with values");
   }
+  std::optional<YamlValue> found;
   for (const auto& entry : node_) {
-    if (entry.first.IsScalar() && entry.first.Scalar() == key) {
-      return YamlValue(file_, path_to(key), entry.first.Mark().line + 1, entry.second);
+    if (!entry.first.IsScalar() || entry.first.Scalar() != key) {
+      continue;
     }
+    if (found) {
+      throw found->error("is given twice");
+    }
+    found.emplace(YamlValue(file_, path_to(key), entry.first.Mark().line + 1, entry.second));
   }
-  return std::nullopt;
+  return found;
 }
 
 YamlValue YamlValue::at(std::string_view key) const {
@@ -136,7 +141,7 @@ std::vector<double> YamlValue::numbers() const {
     throw wrong_type("a list of numbers");
   }
   std::vector<double> numbers;
-  collect_numbers(node_, numbers);
+  collect_numbers(node_, 0, numbers);
   return numbers;
 }
 
@@ -198,10 +203,13 @@ std::string YamlValue::path_to(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
-void YamlValue::collect_numbers(const YAML::Node& node, std::vector<double>& numbers) const {
-  if (node.IsSequence()) {
+void YamlValue::collect_numbers(const YAML::Node& node,
+                                int depth,
+                                std::vector<double>& numbers) const {
+  constexpr int kDeepest = 4;  // a list may hold itself
+  if (node.IsSequence() && depth < kDeepest) {
     for (const auto& item : node) {
-      collect_numbers(item, numbers);
+      collect_numbers(item, depth + 1, numbers);
     }
     return;
   }

@@ -22,7 +22,8 @@ class YamlValue {
   /// when the file cannot be read, is empty or malformed.
   [[nodiscard]] static YamlValue load(const std::filesystem::path& file);
 
-  /// The entry of a map; none when it is absent. Throws `Error` (input) when this is no map.
+  /// The entry of a map; none when it is absent. Throws `Error` (input) when this is no map or has
+  /// the key twice.
   [[nodiscard]] std::optional<YamlValue> find(std::string_view key) const;
 
   /// The entry of a map; throws `Error` (input) naming the key when it is absent.
@@ -72,7 +73,7 @@ class YamlValue {
 
   [[nodiscard]] Error wrong_type(std::string_view expected) const;
   [[nodiscard]] std::string path_to(std::string_view key) const;
-  void collect_numbers(const YAML::Node& node, std::vector<double>& numbers) const;
+  void collect_numbers(const YAML::Node& node, int depth, std::vector<double>& numbers) const;
 
   std::string file_;
   std::string path_;

@@ -23,6 +23,11 @@ CommonOrientation common_orientation(const Pose& T_right_left) {
   const Eigen::Vector3d x = -to_left / baseline_m;
   const Eigen::Vector3d left_axis = T_right_left.linear().col(2);
   const Eigen::Vector3d left_rows = T_right_left.linear().col(0);
+  if (std::abs(x.x()) <= 0.5 || std::abs(x.dot(left_rows)) <= 0.5) {
+    throw refusal(
+        "the baseline lies across the image rows; the cameras stand above each other or look "
+        "different ways, or the extrinsics are wrong");
+  }
   if (!(x.x() > 0.5) || !(x.dot(left_rows) > 0.5)) {
     throw refusal(
         "the left camera does not stand to the left of the right one; left and right "

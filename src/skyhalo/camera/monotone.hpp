@@ -39,7 +39,7 @@ template <class Predicate>
 [[nodiscard]] double holds_until(const Predicate& holds, double step, double last) noexcept {
   double good = 0.0;
   double bad = 0.0;
-  for (int i = 1; bad == 0.0; ++i) {
+  for (int i = 1; bad == 0.0 && last > 0.0; ++i) {
     const double x = std::fmin(step * i, last);
     if (!holds(x)) {
       bad = x;

@@ -49,12 +49,14 @@ struct PinholePair {
 }
 
 /// Size of the change of that point (m, per axis of `cam`) when d is wrong by `delta_d_px`
-/// (thesis eq. 4.2): `(|u-u0|, |v-v0|, f) B/d^2 delta_d`.
+/// (thesis eq. 4.2), NaN unless d, offset included, is above 0: `(|u-u0|, |v-v0|, f) B/d^2
+/// delta_d`.
 [[nodiscard]] inline Eigen::Vector3d uncertainty_m(const PinholePair& pair,
                                                    const Eigen::Vector3d& pixel_and_disparity_px,
                                                    double delta_d_px) noexcept {
   const double d_px = pixel_and_disparity_px.z() + pair.disparity_offset_px;
-  const double m_per_px = pair.baseline_m / (d_px * d_px) * delta_d_px;
+  const double m_per_px = d_px > 0.0 ? pair.baseline_m / (d_px * d_px) * delta_d_px
+                                     : std::numeric_limits<double>::quiet_NaN();
   return Eigen::Vector3d(pixel_and_disparity_px.x() - pair.principal_u_px,
                          pixel_and_disparity_px.y() - pair.principal_v_px,
                          pair.focal_px)

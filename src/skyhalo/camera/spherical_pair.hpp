@@ -64,12 +64,16 @@ struct SphericalPair {
 }
 
 /// Size of the change of that point (m, per axis of `cam`) when d is wrong by `delta_d_px` (thesis
-/// eq. 4.7): `B cos(alpha) delta_theta_u (1 + 1/tan^2(delta)) delta_d |ray(u, v)|`.
+/// eq. 4.7), NaN unless d > 0: `B cos(alpha) delta_theta_u (1 + 1/tan^2(delta)) delta_d |ray(u,
+/// v)|`.
 [[nodiscard]] inline Eigen::Vector3d uncertainty_m(const SphericalPair& pair,
                                                    const Eigen::Vector3d& pixel_and_disparity_px,
                                                    double delta_d_px) noexcept {
   const Eigen::Vector3d ray = ray_of(pair, pixel_and_disparity_px.x(), pixel_and_disparity_px.y());
-  const double s = std::sin(pixel_and_disparity_px.z() * pair.delta_theta_u_rad);
+  const double delta = pixel_and_disparity_px.z() * pair.delta_theta_u_rad;
+  const double s = delta > 0.0 && delta < std::numbers::pi
+                       ? std::sin(delta)
+                       : std::numeric_limits<double>::quiet_NaN();
   const double cos_alpha = std::hypot(ray.y(), ray.z());
   // 1 + 1/tan^2 = 1/sin^2
   return ray.cwiseAbs() *
@@ -95,10 +99,14 @@ struct SphericalPair {
 }
 
 /// Range (m) straight ahead at disparity d, `B/tan(delta)`: the nearest thing that a search up to d
-/// finds there, or the farthest that d still tells from infinity. 0 from a quarter turn on.
+/// finds there, or the farthest that d still tells from infinity. 0 from a quarter turn on,
+/// infinite where d is not above 0.
 [[nodiscard]] inline double range_at_disparity_m(const SphericalPair& pair,
                                                  double disparity_px) noexcept {
   const double delta = disparity_px * pair.delta_theta_u_rad;
+  if (!(delta > 0.0)) {
+    return std::numeric_limits<double>::infinity();
+  }
   return delta < std::numbers::pi / 2.0 ? pair.baseline_m / std::tan(delta) : 0.0;
 }
 

@@ -64,7 +64,9 @@ Reach seen_by_both(const RawPair& raw,
   };
   const Reach seen{reach(-outwards), reach(outwards)};
   if (std::min(seen.before, seen.after) < kStep) {
-    refuse("T_right_left: the cameras have no field in common around the middle of their axes");
+    refuse(
+        "T_right_left: the cameras have no field in common around the middle of their axes (or "
+        "intrinsics_px leave none)");
   }
   return seen;
 }
@@ -92,7 +94,8 @@ struct Axis {
 };
 
 int whole_units(double size_px) {
-  return std::max(kLeastSize, static_cast<int>(size_px / kSizeUnit) * kSizeUnit);
+  const double bounded_px = std::clamp<double>(size_px, kLeastSize, kLargestSize + kSizeUnit);
+  return static_cast<int>(bounded_px / kSizeUnit) * kSizeUnit;
 }
 
 /// A side over `reach`; the pixel is `per_px` where no size is given, else made to fit.
@@ -116,14 +119,15 @@ Axis extend(const Reach& reach, double per_px, std::optional<int> size_px) {
 
 /// A side with an exact field: centred, the pixel made to fit the size.
 Axis centred(double half, double per_px, std::optional<int> size_px) {
-  const double units = std::round(2.0 * half / per_px / kSizeUnit) * kSizeUnit;
-  const int size = size_px.value_or(std::max(kLeastSize, static_cast<int>(units)));
+  const int size = size_px.value_or(whole_units(2.0 * half / per_px + 0.5 * kSizeUnit));
   return {2.0 * half / size, 0.5 * (size - 1), size};
 }
 
 void check_angle(const char* key, const std::optional<double>& angle_rad, double widest_deg) {
-  if (angle_rad && !(*angle_rad > 0.0 && *angle_rad <= rad_from_deg(widest_deg) + 1e-9)) {
-    refuse(std::string(key) + ": this model can show up to " + degrees(rad_from_deg(widest_deg)) +
+  constexpr double kNarrowest = rad_from_deg(1.0);
+  if (angle_rad &&
+      !(*angle_rad >= kNarrowest - 1e-9 && *angle_rad <= rad_from_deg(widest_deg) + 1e-9)) {
+    refuse(std::string(key) + ": this model can show 1 to " + degrees(rad_from_deg(widest_deg)) +
            ", found " + degrees(*angle_rad));
   }
 }
@@ -229,7 +233,8 @@ Axis upright_of_pinhole(const Choice& choice, double per_px) {
           "one "
           "of the three out");
     }
-    const int rounded_px = std::max(kLeastSize, static_cast<int>(std::lround(fitting_px)));
+    const int rounded_px = static_cast<int>(
+        std::lround(std::clamp<double>(fitting_px, kLeastSize, kLargestSize + kSizeUnit)));
     return extend({half, half}, per_px, height_px.value_or(rounded_px));
   }
   if (wish.hfov_rad && height_px) {

@@ -31,8 +31,8 @@ struct VirtualPair {
 /// middle row and column as both raw cameras see, at most 60 degrees to each side for the pinhole
 /// model, 87 (across) and 80 (up and down) for the spherical one. Without a wished size, a pixel in
 /// the middle is as large as a raw one, and the sides are multiples of 16 px. A wished field lies
-/// centred on the optical axis. It can be up to 150 degrees for the pinhole model, 179 across and
-/// 340 upright for the spherical one; sizes are 16...16384 px.
+/// centred on the optical axis. It can be from 1 degree on up to 150 for the pinhole model, 179
+/// across and 340 upright for the spherical one; sizes are 16...16384 px.
 ///
 /// Throws `Error` (input) naming `T_right_left` when the baseline is zero or the left camera is not
 /// on the left (swapped cameras or inverted extrinsics), and `hfov_deg`, `vfov_deg` or `size_px`

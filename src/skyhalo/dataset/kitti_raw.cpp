@@ -61,7 +61,7 @@ bool is_kitti_raw_drive(const fs::path& folder) {
 
 KittiRawDrive::KittiRawDrive(const fs::path& folder,
                              const DatasetConfig& config,
-                             std::optional<StereoRig> rig)
+                             std::optional<KittiRig> rig)
     : folder_(fs::absolute(folder).lexically_normal()),
       cameras_(choose_pair(folder_, config.cameras)) {
   if (folder_.filename().empty()) {  // the path ended in a slash
@@ -101,11 +101,15 @@ KittiRawDrive::KittiRawDrive(const fs::path& folder,
                         .masks_px = {}});
 }
 
-void KittiRawDrive::use_rig(StereoRig rig) {
-  if (rig.pairs.size() != 1) {
-    throw Error(ErrorKind::kInput, "rig: expected one pair for the two cameras of a KITTI drive");
+void KittiRawDrive::use_rig(KittiRig rig) {
+  if (rig.rig.pairs.size() != 1) {
+    throw input_error(folder_, "expected a rig of one pair, for the two cameras of a KITTI drive");
   }
-  rig_ = std::move(rig);
+  rig_ = std::move(rig.rig);
+  calibration_.T_body_laser = rig.T_body_imu * calibration_.T_body_laser;
+  for (Pose& T_map_body : poses_) {
+    T_map_body = rig.T_body_imu * T_map_body * rig.T_body_imu.inverse();
+  }
 }
 
 Timestamp KittiRawDrive::stamp(int frame) const {

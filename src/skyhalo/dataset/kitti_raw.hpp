@@ -13,6 +13,12 @@ namespace skyhalo {
 /// True when the folder looks like a KITTI raw drive (it has `image_00` or `image_02`, and `oxts`).
 [[nodiscard]] bool is_kitti_raw_drive(const std::filesystem::path& folder);
 
+/// Other cameras' description for a drive, with a body of its own.
+struct KittiRig {
+  StereoRig rig;                       ///< one pair
+  Pose T_body_imu = Pose::Identity();  ///< the INS in that body
+};
+
 /// A drive of the KITTI raw data, synchronised and rectified: `image_0X/data/NNNNNNNNNN.png`,
 /// `oxts/data`, `velodyne_points/data`, with the day's calibration files in the parent folder. The
 /// map frame is the body's (INS) at frame 0.
@@ -20,10 +26,11 @@ class KittiRawDrive final : public FrameSource, public LaserSource {
  public:
   /// Reads calibration, time stamps and poses, and sees that no image of the drive is missing.
   /// Throws `Error` (input) naming file and line.
-  /// With a `rig`, its one pair takes the place of the calibration's for the images.
+  /// With a `rig`, its one pair takes the place of the calibration's for the images, and its body
+  /// that of the INS.
   KittiRawDrive(const std::filesystem::path& folder,
                 const DatasetConfig& config,
-                std::optional<StereoRig> rig = std::nullopt);
+                std::optional<KittiRig> rig = std::nullopt);
 
   [[nodiscard]] std::string name() const override { return name_; }
 
@@ -44,7 +51,7 @@ class KittiRawDrive final : public FrameSource, public LaserSource {
   [[nodiscard]] Pose T_annotation_laser() const override { return calibration_.T_reference_laser; }
 
  private:
-  void use_rig(StereoRig rig);
+  void use_rig(KittiRig rig);
   [[nodiscard]] std::filesystem::path image_file(int camera, int frame) const;
 
   std::filesystem::path folder_;

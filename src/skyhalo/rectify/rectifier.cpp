@@ -43,14 +43,15 @@ cv::Mat1b to_grey(const cv::Mat& image, cv::Mat& grey, cv::Mat& grey_8bit) {
 
 Rectifier::Rectifier(const StereoPair& pair, int factor)
     : factor_(factor),
-      left_{left_image_size_px(pair), {}, {}, {}},
-      right_{right_image_size_px(pair), {}, {}, {}} {
+      left_{left_image_size_px(pair), {}, {}, {}, {}},
+      right_{right_image_size_px(pair), {}, {}, {}, {}} {
   if (factor < 1) {
     throw Error(ErrorKind::kInput, "matching.downscale: expected a whole number above 0");
   }
   const cv::Size matched(pair.image_size_px.width / factor, pair.image_size_px.height / factor);
   if (matched.empty()) {
-    throw Error(ErrorKind::kInput, "stereo pair: images smaller than the down-scaling factor");
+    throw Error(ErrorKind::kInput,
+                "pair " + pair.name + ": its images are smaller than the down-scaling factor");
   }
   if (!pair.raw) {
     return;
@@ -76,13 +77,7 @@ void Rectifier::bring(const cv::Mat& image, Side& side, cv::Mat1b& out) const {
     side.remapper->remap(grey, out);
     return;
   }
-  if (factor_ == 1) {
-    grey.copyTo(out);
-    return;
-  }
-  const cv::Size size(grey.cols / factor_, grey.rows / factor_);
-  const cv::Rect whole_blocks(0, 0, size.width * factor_, size.height * factor_);
-  cv::resize(grey(whole_blocks), out, size, 0.0, 0.0, cv::INTER_AREA);
+  side.block_mean.shrink(grey, factor_, out);
 }
 
 }  // namespace skyhalo

@@ -37,6 +37,7 @@ class Rectifier {
   struct Side {
     cv::Size size_px;  // of the images that come
     std::optional<Remapper> remapper;
+    BlockMean block_mean;
     cv::Mat grey;
     cv::Mat grey_8bit;
   };

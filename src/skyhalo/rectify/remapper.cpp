@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
-#include <vector>
+#include <optional>
 
 namespace skyhalo {
 namespace {
 
-/// Far outside every image, and inside the 16 bits of the map.
-constexpr float kNowhere = -20000.0F;
+constexpr int kFraction = 128;  // steps between two pixels of the shrunk image
 
 /// Raw coordinates (px) of each pixel of the result; NaN where the lens images nothing.
 cv::Mat2d raw_coordinates(const RemapGoal& goal) {
@@ -53,39 +51,73 @@ double median_footprint_px(const cv::Mat2d& raw, const cv::Size& raw_size) {
   return *middle;
 }
 
+/// The side of the blocks that an image is averaged over: from a quarter more than one raw pixel a
+/// pixel, so that what is finer than the result's pixels fades before it is sampled.
+int block_for(double footprint_px) noexcept {
+  return static_cast<int>(std::floor(footprint_px + 0.75));
+}
+
 }  // namespace
 
-Remapper::Remapper(const RemapGoal& goal) : valid_(goal.size_px) {
+Remapper::Remapper(const RemapGoal& goal) : valid_(goal.size_px, 0) {
   const cv::Mat2d raw = raw_coordinates(goal);
   const cv::Size raw_size = goal.camera.size_px;
-  const int largest_block = std::min({raw_size.width, raw_size.height, 64});
-  block_px_ = std::clamp(
-      static_cast<int>(std::lround(median_footprint_px(raw, raw_size))), 1, largest_block);
+  const int largest_block = std::min({raw_size.width / 2, raw_size.height / 2, 64});
+  block_px_ =
+      std::clamp(block_for(median_footprint_px(raw, raw_size)), 1, std::max(1, largest_block));
   shrunk_size_ = {raw_size.width / block_px_, raw_size.height / block_px_};
-  cv::Mat2f source(goal.size_px);
+  taps_.resize(valid_.total());
+  if (shrunk_size_.width < 2 || shrunk_size_.height < 2) {
+    return;  // nothing to interpolate between
+  }
+  auto tap = taps_.begin();
   for (int v = 0; v < raw.rows; ++v) {
-    for (int u = 0; u < raw.cols; ++u) {
+    for (int u = 0; u < raw.cols; ++u, ++tap) {
       const cv::Vec2d at = (raw(v, u) + cv::Vec2d(0.5, 0.5)) / block_px_ - cv::Vec2d(0.5, 0.5);
-      const bool seen = inside(at, shrunk_size_);
-      valid_(v, u) = seen ? 255 : 0;
-      source(v, u) = seen ? cv::Vec2f(at) : cv::Vec2f(kNowhere, kNowhere);
+      if (!inside(at, shrunk_size_)) {
+        continue;
+      }
+      valid_(v, u) = 255;
+      const int left = std::min(static_cast<int>(at[0]), shrunk_size_.width - 2);
+      const int top = std::min(static_cast<int>(at[1]), shrunk_size_.height - 2);
+      *tap = {top * shrunk_size_.width + left,
+              static_cast<std::uint8_t>(std::lround((at[0] - left) * kFraction)),
+              static_cast<std::uint8_t>(std::lround((at[1] - top) * kFraction))};
     }
   }
-  cv::convertMaps(source, cv::noArray(), map_px_, map_fraction_, CV_16SC2);
 }
 
 void Remapper::remap(const cv::Mat1b& raw, cv::Mat1b& out) {
-  if (block_px_ > 1) {
-    const cv::Rect whole_blocks(cv::Point(), shrunk_size_ * block_px_);
-    cv::resize(raw(whole_blocks), shrunk_, shrunk_size_, 0.0, 0.0, cv::INTER_AREA);
+  out.create(valid_.size());
+  if (shrunk_size_.width < 2 || shrunk_size_.height < 2) {
+    out.setTo(0);
+    return;
   }
-  cv::remap(block_px_ > 1 ? shrunk_ : raw,
-            out,
-            map_px_,
-            map_fraction_,
-            cv::INTER_LINEAR,
-            cv::BORDER_CONSTANT,
-            cv::Scalar(0));
+  const bool rows_are_packed = raw.isContinuous();
+  if (block_px_ == 1 && rows_are_packed) {
+    sample(raw, out);
+    return;
+  }
+  block_mean_.shrink(raw, block_px_, shrunk_);
+  sample(shrunk_, out);
+}
+
+void Remapper::sample(const cv::Mat1b& shrunk, cv::Mat1b& out) const noexcept {
+  const std::uint8_t* const pixels = shrunk[0];
+  const int stride = shrunk_size_.width;
+  const Tap* tap = taps_.data();
+  for (int v = 0; v < out.rows; ++v) {
+    std::uint8_t* const row = out[v];
+    const std::uint8_t* const seen = valid_[v];
+    for (int u = 0; u < out.cols; ++u, ++tap) {
+      const std::uint8_t* const p = pixels + tap->offset;
+      const int upper = p[0] * (kFraction - tap->right) + p[1] * tap->right;
+      const int lower = p[stride] * (kFraction - tap->right) + p[stride + 1] * tap->right;
+      const int sum = upper * (kFraction - tap->down) + lower * tap->down;
+      constexpr int kUnit = kFraction * kFraction;
+      row[u] = static_cast<std::uint8_t>((sum + kUnit / 2) / kUnit & seen[u]);
+    }
+  }
 }
 
 }  // namespace skyhalo

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "skyhalo/camera/pair_model.hpp"
 #include "skyhalo/camera/raw_pair.hpp"
+#include "skyhalo/rectify/block_mean.hpp"
 
 namespace skyhalo {
 
@@ -18,8 +21,8 @@ struct RemapGoal {
 /// Warps raw images of one camera to its virtual one, straight at the resolution that is matched:
 /// for each pixel its ray, rotated into the raw camera, imaged by its lens, sampled (METHOD 1).
 /// When the image shrinks, the raw one is first averaged over whole blocks about as large as a
-/// pixel of the result, so that nothing aliases; the rest is bilinear, at 1/32 px. The look-up is
-/// built once; remapping does not allocate after the first image. Not for use by two threads at
+/// pixel of the result, so that it hardly aliases; the rest is bilinear, at 1/128 px. The look-up
+/// is built once; remapping does not allocate after the first image. Not for use by two threads at
 /// once.
 class Remapper {
  public:
@@ -35,11 +38,21 @@ class Remapper {
   [[nodiscard]] int block_px() const noexcept { return block_px_; }
 
  private:
+  /// Where a pixel comes from: the upper left of four neighbours in the shrunk image, and how far
+  /// (1/128 px) it lies from it.
+  struct Tap {
+    std::int32_t offset = 0;
+    std::uint8_t right = 0;
+    std::uint8_t down = 0;
+  };
+
+  void sample(const cv::Mat1b& shrunk, cv::Mat1b& out) const noexcept;
+
   int block_px_ = 1;
   cv::Size shrunk_size_;
-  cv::Mat map_px_;        // CV_16SC2: whole source pixels
-  cv::Mat map_fraction_;  // CV_16UC1: fractions of 1/32 px
+  std::vector<Tap> taps_;  // row by row; offsets for rows of shrunk_size_.width
   cv::Mat1b valid_;
+  BlockMean block_mean_;
   cv::Mat1b shrunk_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace skyhalo {
@@ -9,12 +10,22 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-int floor_div(int a, int b) noexcept {
+std::int64_t floor_div(std::int64_t a, int b) noexcept {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-int ceil_div(int a, int b) noexcept {
+std::int64_t ceil_div(std::int64_t a, int b) noexcept {
   return -floor_div(-a, b);
+}
+
+/// The part [from, from + length) of a side of `size_px` before shrinking, after it, inside the
+/// side.
+cv::Range shrunk(int from, int length, int downscale, int size_px) noexcept {
+  const std::int64_t end = std::int64_t{from} + length;  // may be beyond an int
+  const auto inside = [size_px](std::int64_t at) {
+    return static_cast<int>(std::clamp<std::int64_t>(at, 0, size_px));
+  };
+  return {inside(floor_div(from, downscale)), inside(ceil_div(end, downscale))};
 }
 
 }  // namespace
@@ -28,15 +39,13 @@ void discard_right_columns(cv::Mat1f& disparity, int rcrop_px) noexcept {
 }
 
 void discard_rectangles(cv::Mat1f& disparity, std::span<const cv::Rect> masks_px, int downscale) {
-  const cv::Rect image(0, 0, disparity.cols, disparity.rows);
   for (const cv::Rect& mask : masks_px) {
     if (mask.empty()) {
       continue;
     }
-    const cv::Point from(floor_div(mask.x, downscale), floor_div(mask.y, downscale));
-    const cv::Point to(ceil_div(mask.x + mask.width, downscale),
-                       ceil_div(mask.y + mask.height, downscale));
-    disparity(cv::Rect(from, to) & image).setTo(kNone);
+    disparity(shrunk(mask.y, mask.height, downscale, disparity.rows),
+              shrunk(mask.x, mask.width, downscale, disparity.cols))
+        .setTo(kNone);
   }
 }
 
