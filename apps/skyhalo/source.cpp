@@ -94,10 +94,11 @@ void add_rig_option(CLI::App& command, SourceOptions& options) {
 }
 
 OpenedRig open_rig(const std::string& file, const CommonOptions& common, const Config& config) {
+  StereoRig rig = load_rig(file);
   const RigFile read = read_rig_file(file);
   print_warnings(common, read.warnings);
   print_warnings(common, check_rig(read.description, check_settings(config)).warnings);
-  return {load_rig(file), read.description.T_body_imu};
+  return {std::move(rig), read.description.T_body_imu};
 }
 
 Recording open_recording(const SourceOptions& options,

@@ -34,9 +34,9 @@ TEST(RotationInputTest, ARotationStaysWithoutAWord) {
   EXPECT_THAT(warnings, IsEmpty());
 }
 
-TEST(RotationInputTest, RoundedDigitsAreMadeARotationWithoutAWord) {
+TEST(RotationInputTest, RoundedDigitsStayAsTheyAre) {
   std::vector<std::string> warnings;
-  expect_matrix(rotation_from(stretched(4e-6), at_place, warnings), stretched(0.0), 1e-12);
+  expect_matrix(rotation_from(stretched(4e-6), at_place, warnings), stretched(4e-6), 0.0);
   EXPECT_THAT(warnings, IsEmpty());
 }
 

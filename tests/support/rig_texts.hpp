@@ -194,8 +194,12 @@ inline std::vector<WrongRig> wrong_raw_pairs() {
       {"pinhole\n      hfov_deg: 60",
        "spherical\n      hfov_deg: 178.5",  // these lenses end at 89 degrees
        {":20: pairs[0].rectify_to.hfov_deg: ", "beyond the lens", "178.5"}},
-      {"hfov_deg: 60", "hfov_deg: 0.001", {":18: pairs[0].rectify_to.size_px: ", "16...16384"}},
-      {"hfov_deg: 60", "hfov_deg: 1e-300", {":18: pairs[0].rectify_to.size_px: ", "16...16384"}},
+      {"hfov_deg: 60",
+       "hfov_deg: 0.001",
+       {":20: pairs[0].rectify_to.hfov_deg: ", "1 to 150 degrees"}},
+      {"hfov_deg: 60",
+       "hfov_deg: 1e-300",
+       {":20: pairs[0].rectify_to.hfov_deg: ", "1 to 150 degrees"}},
       {"hfov_deg: 60", "size_px: [8, 480]", {":20: pairs[0].rectify_to.size_px: ", "16...16384"}},
   };
 }

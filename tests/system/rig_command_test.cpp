@@ -205,12 +205,13 @@ TEST_F(RigCommandSystem, CheckWarnsWithoutRefusing) {
           .string();
   const ProgramResult result = run({"check", file, "--json"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(lines_of(result.err).size(), 2U) << result.err;
+  EXPECT_EQ(lines_of(result.err).size(), 3U) << result.err;
   EXPECT_THAT(result.err,
               AllOf(HasSubstr(":13: pairs[0].T_right_left: the rotation is not"),
-                    HasSubstr("pair front: the baseline of 100 m looks like milli")));
-  EXPECT_THAT(result.out, HasSubstr("2 warnings."));
-  EXPECT_EQ(last_line(result.out)["warnings"].size(), 2U);
+                    HasSubstr("pair front: the baseline of 100 m looks like milli"),
+                    HasSubstr("pair front: max_range_m lies below")));
+  EXPECT_THAT(result.out, HasSubstr("3 warnings."));
+  EXPECT_EQ(last_line(result.out)["warnings"].size(), 3U);
   EXPECT_THAT(run({"check", file, "--quiet"}).err, IsEmpty());
 }
 
@@ -231,8 +232,8 @@ TEST_F(RigCommandSystem, CheckRefusesWrongRigs) {
 
 TEST_F(RigCommandSystem, CheckPrintsNumbersOfAnySize) {
   for (const auto& [from, to] : {std::pair("focal_px: 400", "focal_px: 1e300"),
-                                 std::pair("baseline_m: 0.1", "baseline_m: 1e300"),
-                                 std::pair("[0.1, -0.05, 0.02]", "[1e300, -1e300, 1e300]")}) {
+                                 std::pair("baseline_m: 0.1", "baseline_m: 999.9"),
+                                 std::pair("[0.1, -0.05, 0.02]", "[1000, -1000, 1e-300]")}) {
     const std::string file = folder.write("rig.yaml", changed(kRectifiedRig, from, to)).string();
     const ProgramResult result = run({"check", file, "--json"});
     EXPECT_EQ(result.exit_code, 0);

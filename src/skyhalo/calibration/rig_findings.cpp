@@ -10,6 +10,7 @@ namespace skyhalo {
 namespace {
 
 constexpr double kLongestBaseline_m = 3.0;
+constexpr double kLongestInCentimetres_m = 20.0;
 constexpr double kShortestBaseline_m = 0.01;
 constexpr double kFarthestCamera_m = 10.0;
 const cv::Size kLeastMatched(64, 48);
@@ -22,9 +23,10 @@ void check_lengths(double pair_baseline_m,
                    const Pose& T_body_camera,
                    std::vector<std::string>& findings) {
   if (pair_baseline_m > kLongestBaseline_m) {
-    findings.push_back("the baseline of " + metres(pair_baseline_m) +
-                       " looks like millimetres or centimetres: " +
-                       metres(pair_baseline_m / 1000.0) + " or " + metres(pair_baseline_m / 100.0));
+    const bool millimetres = pair_baseline_m > kLongestInCentimetres_m;
+    findings.push_back("the baseline of " + metres(pair_baseline_m) + " looks like " +
+                       (millimetres ? "millimetres" : "centimetres") + "; as such it would be " +
+                       metres(pair_baseline_m / (millimetres ? 1000.0 : 100.0)));
   } else if (pair_baseline_m < kShortestBaseline_m) {
     findings.push_back("the baseline of " + metres(pair_baseline_m) + " is very short");
   }
@@ -93,6 +95,9 @@ std::vector<std::string> findings_on(const PairDescription& pair) {
     return findings;
   }
   const RawPair& cameras = std::get<RawPairDescription>(pair.images).cameras;
+  if (!(cameras.T_right_left.translation().norm() > 0.0)) {
+    return findings;  // cannot be used at all
+  }
   check_lengths(cameras.T_right_left.translation().norm(), pair.T_body_camera, findings);
   check_side(cameras, pair.T_body_camera, findings);
   check_camera("left", cameras.left, findings);
@@ -105,16 +110,17 @@ std::vector<std::string> findings_on(const PairReport& pair) {
   std::vector<std::string> findings;
   const double up = deg_from_rad(std::asin(std::clamp(pair.axis_body.z(), -1.0, 1.0)));
   const Eigen::Vector3d columns_body = pair.axis_body.cross(pair.rows_body);
+  const double roll = deg_from_rad(std::abs(std::atan2(pair.rows_body.z(), -columns_body.z())));
   if (up > 60.0) {
     findings.emplace_back(
         "looks up; is T_body_camera given in the axes of an IMU? Body is x forward, y left, z up");
-  } else if (std::abs(pair.rows_body.z()) > 0.7) {
+  } else if (up > -60.0 && roll > 135.0) {
+    findings.emplace_back("hangs upside down");
+  } else if (up > -60.0 && roll > 45.0) {
     findings.emplace_back(
         "lies on its side; is T_body_camera given in the axes of an IMU? Body is x forward, y "
         "left, "
         "z up");
-  } else if (columns_body.z() > 0.3) {
-    findings.emplace_back("hangs upside down");
   }
   if (pair.matched_px.width < kLeastMatched.width ||
       pair.matched_px.height < kLeastMatched.height) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/base/number_text.hpp"
 #include "skyhalo/camera/common_orientation.hpp"
 #include "skyhalo/camera/monotone.hpp"
 #include "skyhalo/geometry/angle.hpp"
@@ -38,9 +39,7 @@ FieldLimits limits_of(PairModelKind model) noexcept {
 }
 
 std::string degrees(double angle_rad) {
-  const double rounded = std::round(deg_from_rad(angle_rad) * 10.0) / 10.0;
-  std::string text = std::to_string(rounded);
-  return text.substr(0, text.find('.') + 2) + " degrees";
+  return number_text("%.4g degrees", deg_from_rad(angle_rad));
 }
 
 /// How far an image reaches to both sides of the optical axis along one direction.

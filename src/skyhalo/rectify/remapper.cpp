@@ -24,8 +24,11 @@ cv::Mat2d raw_coordinates(const RemapGoal& goal) {
   return raw;
 }
 
+/// Half a step of the look-up counts as inside: rounding must not cost an image its border.
 bool inside(const cv::Vec2d& at, const cv::Size& size) noexcept {
-  return at[0] >= 0.0 && at[1] >= 0.0 && at[0] <= size.width - 1.0 && at[1] <= size.height - 1.0;
+  constexpr double kTolerance = 0.5 / kFraction;
+  return at[0] >= -kTolerance && at[1] >= -kTolerance && at[0] <= size.width - 1.0 + kTolerance &&
+         at[1] <= size.height - 1.0 + kTolerance;
 }
 
 /// The median over the image of a pixel's size on the raw one: the square root of the area between
@@ -78,11 +81,13 @@ Remapper::Remapper(const RemapGoal& goal) : valid_(goal.size_px, 0) {
         continue;
       }
       valid_(v, u) = 255;
-      const int left = std::min(static_cast<int>(at[0]), shrunk_size_.width - 2);
-      const int top = std::min(static_cast<int>(at[1]), shrunk_size_.height - 2);
+      const double x = std::clamp(at[0], 0.0, shrunk_size_.width - 1.0);
+      const double y = std::clamp(at[1], 0.0, shrunk_size_.height - 1.0);
+      const int left = std::min(static_cast<int>(x), shrunk_size_.width - 2);
+      const int top = std::min(static_cast<int>(y), shrunk_size_.height - 2);
       *tap = {top * shrunk_size_.width + left,
-              static_cast<std::uint8_t>(std::lround((at[0] - left) * kFraction)),
-              static_cast<std::uint8_t>(std::lround((at[1] - top) * kFraction))};
+              static_cast<std::uint8_t>(std::lround((x - left) * kFraction)),
+              static_cast<std::uint8_t>(std::lround((y - top) * kFraction))};
     }
   }
 }
