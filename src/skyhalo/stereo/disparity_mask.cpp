@@ -28,6 +28,16 @@ cv::Range shrunk(int from, int length, int downscale, int size_px) noexcept {
   return {inside(floor_div(from, downscale)), inside(ceil_div(end, downscale))};
 }
 
+/// Whether the left camera saw the match at column `u_px` (NaN for none) of row v.
+bool sees_match(const cv::Mat1b& left_valid, int v, float u_px) noexcept {
+  if (left_valid.empty()) {
+    return true;
+  }
+  const float column = std::round(u_px);
+  const bool inside = column >= 0.0F && column < static_cast<float>(left_valid.cols);
+  return inside && left_valid(v, static_cast<int>(column)) != 0;
+}
+
 }  // namespace
 
 void discard_right_columns(cv::Mat1f& disparity, int rcrop_px) noexcept {
@@ -54,16 +64,10 @@ void discard_unseen(cv::Mat1f& disparity,
                     const cv::Mat1b& left_valid) noexcept {
   for (int v = 0; v < disparity.rows; ++v) {
     float* row = disparity[v];
-    const std::uint8_t* right = right_valid.empty() ? nullptr : right_valid[v];
-    const std::uint8_t* left = left_valid.empty() ? nullptr : left_valid[v];
     for (int u = 0; u < disparity.cols; ++u) {
-      if (right != nullptr && right[u] == 0) {
+      const bool right_sees = right_valid.empty() || right_valid(v, u) != 0;
+      if (!right_sees || !sees_match(left_valid, v, static_cast<float>(u) + row[u])) {
         row[u] = kNone;
-      }
-      if (left != nullptr && !std::isnan(row[u])) {
-        const float match = std::round(static_cast<float>(u) + row[u]);
-        const bool inside = match >= 0.0F && match < static_cast<float>(disparity.cols);
-        row[u] = inside && left[static_cast<int>(match)] != 0 ? row[u] : kNone;
       }
     }
   }
