@@ -24,8 +24,8 @@ bool is_empty(std::string_view text) {
 
 }  // namespace
 
-YamlValue::YamlValue(std::string file, std::string path, int line, YAML::Node node)
-    : file_(std::move(file)), path_(std::move(path)), line_(line), node_(std::move(node)) {}
+YamlValue::YamlValue(std::string file, std::string path, int line, const YAML::Node& node)
+    : file_(std::move(file)), path_(std::move(path)), line_(line), node_(node) {}
 
 YamlValue YamlValue::load(const std::filesystem::path& file) {
   const std::string text = without_opencv_directive(read_bytes(file));
@@ -146,7 +146,7 @@ std::vector<double> YamlValue::numbers() const {
 }
 
 std::vector<double> YamlValue::numbers(std::size_t count) const {
-  const std::vector<double> values = numbers();
+  std::vector<double> values = numbers();
   if (values.size() != count) {
     throw error("expected " + std::to_string(count) + " numbers, found " +
                 std::to_string(values.size()));

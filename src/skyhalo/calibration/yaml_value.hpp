@@ -69,7 +69,7 @@ class YamlValue {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
  private:
-  YamlValue(std::string file, std::string path, int line, YAML::Node node);
+  YamlValue(std::string file, std::string path, int line, const YAML::Node& node);
 
   [[nodiscard]] Error wrong_type(std::string_view expected) const;
   [[nodiscard]] std::string path_to(std::string_view key) const;

@@ -9,8 +9,8 @@ void halve_row(const std::uint8_t* upper,
                const std::uint8_t* lower,
                int cols,
                std::uint8_t* out) noexcept {
-  for (int u = 0; u < cols; ++u) {
-    const int sum = upper[2 * u] + upper[2 * u + 1] + lower[2 * u] + lower[2 * u + 1];
+  for (int u = 0; u < cols; ++u, upper += 2, lower += 2) {
+    const int sum = upper[0] + upper[1] + lower[0] + lower[1];
     out[u] = static_cast<std::uint8_t>((sum + 2) / 4);
   }
 }
