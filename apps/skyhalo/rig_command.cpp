@@ -25,6 +25,7 @@ const std::map<std::string, Facing> kFacings = {{"forward", Facing::kForward},
 
 std::vector<std::string> words(const auto& map) {
   std::vector<std::string> keys;
+  keys.reserve(map.size());
   for (const auto& [word, value] : map) {
     keys.push_back(word);
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLargestImage = 16384;
 
-constexpr double kFarthest_m = 1000.0;
+constexpr double kFarthestM = 1000.0;
 
 /// Of pairs of both kinds.
 constexpr std::array<std::string_view, 6> kOptionalKeys{
@@ -126,7 +126,7 @@ VirtualPairWish read_wish(const YamlValue& value) {
 double read_baseline(const YamlValue& section) {
   const YamlValue value = section.at("baseline_m");
   const double baseline_m = positive(value);
-  if (baseline_m > kFarthest_m) {
+  if (baseline_m > kFarthestM) {
     throw value.error("expected a length below 1000 m");
   }
   return baseline_m;

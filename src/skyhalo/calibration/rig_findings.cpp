@@ -9,10 +9,10 @@
 namespace skyhalo {
 namespace {
 
-constexpr double kLongestBaseline_m = 3.0;
-constexpr double kLongestInCentimetres_m = 20.0;
-constexpr double kShortestBaseline_m = 0.01;
-constexpr double kFarthestCamera_m = 10.0;
+constexpr double kLongestBaselineM = 3.0;
+constexpr double kLongestInCentimetresM = 20.0;
+constexpr double kShortestBaselineM = 0.01;
+constexpr double kFarthestCameraM = 10.0;
 const cv::Size kLeastMatched(64, 48);
 
 std::string metres(double length_m) {
@@ -22,15 +22,15 @@ std::string metres(double length_m) {
 void check_lengths(double pair_baseline_m,
                    const Pose& T_body_camera,
                    std::vector<std::string>& findings) {
-  if (pair_baseline_m > kLongestBaseline_m) {
-    const bool millimetres = pair_baseline_m > kLongestInCentimetres_m;
+  if (pair_baseline_m > kLongestBaselineM) {
+    const bool millimetres = pair_baseline_m > kLongestInCentimetresM;
     findings.push_back("the baseline of " + metres(pair_baseline_m) + " looks like " +
                        (millimetres ? "millimetres" : "centimetres") + "; as such it would be " +
                        metres(pair_baseline_m / (millimetres ? 1000.0 : 100.0)));
-  } else if (pair_baseline_m < kShortestBaseline_m) {
+  } else if (pair_baseline_m < kShortestBaselineM) {
     findings.push_back("the baseline of " + metres(pair_baseline_m) + " is very short");
   }
-  if (T_body_camera.translation().norm() > kFarthestCamera_m) {
+  if (T_body_camera.translation().norm() > kFarthestCameraM) {
     findings.push_back("the camera stands " + metres(T_body_camera.translation().norm()) +
                        " from the body's origin; is T_body_camera in millimetres?");
   }

@@ -13,8 +13,8 @@ double angle_rad(const YamlValue& value, std::string_view key) {
 
 /// Throws for a place that is no vehicle's.
 Pose checked(const Pose& T, const YamlValue& value) {
-  constexpr double kFarthest_m = 1000.0;
-  if (!(T.translation().cwiseAbs().maxCoeff() <= kFarthest_m)) {
+  constexpr double kFarthestM = 1000.0;
+  if (!(T.translation().cwiseAbs().maxCoeff() <= kFarthestM)) {
     throw value.error("expected a place within 1000 m");
   }
   return T;
