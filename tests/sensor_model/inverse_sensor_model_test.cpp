@@ -1,4 +1,3 @@
-#include "skyhalo/camera/pinhole_pair.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include <random>
 
 #include "reference/naive_sensor_model.hpp"
+#include "skyhalo/camera/pinhole_pair.hpp"
 #include "support/expect_error.hpp"
 
 namespace skyhalo {

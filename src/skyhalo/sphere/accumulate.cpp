@@ -36,9 +36,8 @@ PixelCounts accumulate_with(const Model& model,
 PixelCounts accumulate(const cv::Mat1f& disparity,
                        const PairGeometry& pair,
                        SphericalGrid& grid) noexcept {
-  return ask(pair.model, [&](const auto& model) {
-    return accumulate_with(model, disparity, pair, grid);
-  });
+  return ask(pair.model,
+             [&](const auto& model) { return accumulate_with(model, disparity, pair, grid); });
 }
 
 }  // namespace skyhalo
