@@ -81,6 +81,12 @@ void print_note(const CommonOptions& options, const std::string& text) {
   }
 }
 
+void print_warnings(const CommonOptions& options, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    print_note(options, "warning: " + warning);
+  }
+}
+
 FrameRange parse_frames(const std::string& text, int count) {
   FrameRange range{0, count - 1};
   if (text.empty()) {

@@ -52,6 +52,9 @@ void print_result(const CommonOptions& options,
                   const nlohmann::json& summary);
 void print_note(const CommonOptions& options, const std::string& text);
 
+/// Prints each as a note that begins with "warning".
+void print_warnings(const CommonOptions& options, const std::vector<std::string>& warnings);
+
 /// Throws `Error` (failure) when what was printed did not arrive.
 void flush_stdout();
 

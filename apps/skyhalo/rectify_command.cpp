@@ -269,9 +269,7 @@ void rectify(const RectifyCommand& options) {
                             {"out", options.out}};
   if (!options.skip_row_check) {
     summary["rows"] = rows_json(writer.frames());
-    for (const std::string& doubt : doubts(summary["rows"])) {
-      print_note(options.common, "warning: " + doubt);
-    }
+    print_warnings(options.common, doubts(summary["rows"]));
     write_bytes(out.file("rows.csv"), rows_csv(writer.frames()));
   }
   write_bytes(out.file("rig.yaml"), to_yaml(output, "The images beside this file."));

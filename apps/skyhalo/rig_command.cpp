@@ -118,12 +118,6 @@ void choose_models(const ImportCommand& options, RigDescription& rig) {
   }
 }
 
-void print_warnings(const CommonOptions& options, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) {
-    print_note(options, "warning: " + warning);
-  }
-}
-
 /// Throws for the first pair that cannot be used.
 void refuse_unusable(const std::string& file, const RigReport& report) {
   if (!report.unusable.empty()) {

@@ -32,12 +32,6 @@ void expect_one_pair(const OpenedRig& opened, const SourceOptions& options) {
   }
 }
 
-void print_warnings(const CommonOptions& common, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) {
-    print_note(common, "warning: " + warning);
-  }
-}
-
 OpenedRig own_rig_of_euroc(const SourceOptions& options, const CommonOptions& common) {
   ImportOptions import;
   import.format = CalibrationFormat::kEuroc;

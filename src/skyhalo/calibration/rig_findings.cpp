@@ -118,9 +118,8 @@ std::vector<std::string> findings_on(const PairReport& pair) {
     findings.emplace_back("hangs upside down");
   } else if (up > -60.0 && roll > 45.0) {
     findings.emplace_back(
-        "lies on its side; is T_body_camera given in the axes of an IMU? Body is x forward, y "
-        "left, "
-        "z up");
+        "lies on its side; is T_body_camera given in the axes of an IMU? Body is x forward, "
+        "y left, z up");
   }
   if (pair.matched_px.width < kLeastMatched.width ||
       pair.matched_px.height < kLeastMatched.height) {
