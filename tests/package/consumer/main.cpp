@@ -13,8 +13,9 @@ int main() {
   skyhalo::DenseMap map(skyhalo::make_voxel_grid(bounds, 0.5));
   map.at(0) = 2000;
   skyhalo::write_octree("consumer.ot", map);
+  const skyhalo::PinholePair model{30, 32, 16, 0.1};
   skyhalo::StereoRig rig;
-  rig.pairs.push_back({.name = "front", .image_size_px = {64, 32}, .model = {30, 32, 16, 0.1}});
+  rig.pairs.push_back({.name = "front", .image_size_px = {64, 32}, .model = model});
   const skyhalo::ObstacleDetector detector(rig, config.detector, map.grid());
   std::printf("skyhalo %s: %zu occupied cell, %zu bytes of settings\n",
               skyhalo::kVersion,
