@@ -576,7 +576,8 @@ TEST_F(CommandLineSystem, AnOutputThatCannotBeWrittenIsAFailure) {
 TEST_F(CommandLineSystem, AFailureLeavesEarlierResultsAlone) {
   write_text(root.path() / "out/metrics.csv", "old");
   write_text(data.drive / "velodyne_points/data/0000000003.bin", "short");
-  EXPECT_EQ(evaluate({}).exit_code, 3);
+  const ProgramResult r = evaluate({});
+  EXPECT_EQ(r.exit_code, 3) << r.err;
   EXPECT_EQ(result("metrics.csv"), "old");
   EXPECT_EQ(names_in(root.path() / "out").size(), 1U);
 }
