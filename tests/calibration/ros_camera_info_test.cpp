@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/bad_input.hpp"
+#include "support/calibration_texts.hpp"
 
 namespace skyhalo {
 namespace {
@@ -16,36 +17,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::message_of;
 using testing::replaced;
+using testing::ros_text;
 using ::testing::SizeIs;
 using testing::TempFolder;
 
-/// A camera with the fourth number of P as given.
-std::string info(const std::string& shift) {
-  return "image_width: 640\n"
-         "image_height: 480\n"
-         "camera_name: narrow\n"
-         "camera_matrix:\n"
-         "  rows: 3\n"
-         "  cols: 3\n"
-         "  data: [400.0, 0.0, 320.0, 0.0, 401.0, 240.0, 0.0, 0.0, 1.0]\n"
-         "distortion_model: plumb_bob\n"
-         "distortion_coefficients:\n"
-         "  rows: 1\n"
-         "  cols: 5\n"
-         "  data: [-0.1, 0.02, 0.001, -0.002, 0.0]\n"
-         "rectification_matrix:\n"
-         "  rows: 3\n"
-         "  cols: 3\n"
-         "  data: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]\n"
-         "projection_matrix:\n"
-         "  rows: 3\n"
-         "  cols: 4\n"
-         "  data: [500.0, 0.0, 322.0, " +
-         shift + ", 0.0, 500.0, 242.0, 0.0, 0.0, 0.0, 1.0, 0.0]\n";
-}
-
-const std::string kLeft = info("0.0");
-const std::string kRight = info("-100.0");  // -500 * 0.2 m
+const std::string kLeft = ros_text("0.0");
+const std::string kRight = ros_text("-100.0");  // -500 * 0.2 m
 
 ImportedCameras read(const std::string& left, const std::string& right) {
   const TempFolder folder;
@@ -80,7 +57,7 @@ TEST(RosCameraInfoTest, TheBaselineIsInTheRightProjection) {
 
 TEST(RosCameraInfoTest, TheLeftProjectionMayBeShiftedToo) {
   // 50 / 500 = 0.1 to the left of the common frame, the right one 0.2 to its right.
-  expect_matrix(T_right_left(read(info("50.0"), kRight)).translation(),
+  expect_matrix(T_right_left(read(ros_text("50.0"), kRight)).translation(),
                 Eigen::Vector3d(-0.3, 0, 0));
 }
 

@@ -64,6 +64,7 @@ inline std::string opencv_text() {
          opencv_matrix("T", "3", "1", "-0.2, 0.01, 0.02") + "image_size: [ 640, 480 ]\n";
 }
 
+/// A camera with the fourth number of P as given.
 inline std::string ros_text(const std::string& shift) {
   return "image_width: 640\n"
          "image_height: 480\n"
