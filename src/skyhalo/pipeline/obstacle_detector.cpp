@@ -1,11 +1,10 @@
 #include "skyhalo/pipeline/obstacle_detector.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <string>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/pipeline/for_each_index.hpp"
 #include "skyhalo/pipeline/grid_rays.hpp"
 #include "skyhalo/rectify/rectifier.hpp"
 #include "skyhalo/stereo/disparity_mask.hpp"
@@ -111,7 +110,7 @@ void ObstacleDetector::process(const FrameSet& frames,
                                const Pose& T_map_body,
                                StageObserver* observer) {
   check_frames(frames);
-  tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t i) {
+  for_each_index(pairs_.size(), [&](std::size_t i) {
     PairEngine& pair = pairs_[i];
     run_stage(observer, Stage::kRectify, i, [&] { pair.rectify(frames.pairs[i]); });
     run_stage(observer, Stage::kMatch, i, [&] { pair.match(); });       // thesis 5.1, 5.2
