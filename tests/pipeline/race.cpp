@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "skyhalo/pipeline/for_each_index.hpp"
+#include "skyhalo/base/for_each_index.hpp"
 
 int main() {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
-#include "skyhalo/pipeline/for_each_index.hpp"
+#include "skyhalo/base/for_each_index.hpp"
 #include "skyhalo/pipeline/grid_rays.hpp"
 #include "skyhalo/rectify/rectifier.hpp"
 #include "skyhalo/stereo/disparity_mask.hpp"
