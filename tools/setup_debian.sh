@@ -6,12 +6,12 @@ set -eu
 
 build_packages="
   cmake g++ ninja-build
-  libcli11-dev libeigen3-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
+  libcli11-dev libeigen3-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
   opencv-doc zlib1g-dev"
 test_packages="
   clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-jsonschema python3-yaml
-  libbenchmark-dev libgmock-dev libgtest-dev
-  octomap-tools pcl-tools"
+  g++-aarch64-linux-gnu libbenchmark-dev libgmock-dev libgtest-dev
+  octomap-tools pcl-tools qemu-user"
 
 case "${1:-test}" in
   build) wanted=$build_packages ;;

@@ -92,13 +92,14 @@ TEST(ConfigTest, RefusesAMatcherOutsideItsDomain) {
       {"max_disparity_px", [](Config& c) { c.detector.matching.matcher.max_disparity_px = 20; }},
       {"max_disparity_px", [](Config& c) { c.detector.matching.matcher.max_disparity_px = 0; }},
       {"max_disparity_px", [](Config& c) { c.detector.matching.matcher.max_disparity_px = 272; }},
-      {"block_px", [](Config& c) { c.detector.matching.matcher.block_px = 4; }},
-      {"block_px", [](Config& c) { c.detector.matching.matcher.block_px = 13; }},
-      {"paths", [](Config& c) { c.detector.matching.matcher.paths = 4; }},
+      {"block_px", [](Config& c) { c.detector.matching.matcher.opencv.block_px = 4; }},
+      {"block_px", [](Config& c) { c.detector.matching.matcher.opencv.block_px = 13; }},
+      {"paths", [](Config& c) { c.detector.matching.matcher.opencv.paths = 4; }},
       {"uniqueness_percent",
-       [](Config& c) { c.detector.matching.matcher.uniqueness_percent = 101; }},
-      {"left_right_px", [](Config& c) { c.detector.matching.matcher.left_right_px = 0; }},
-      {"speckle_size_px", [](Config& c) { c.detector.matching.matcher.speckle_size_px = -1; }},
+       [](Config& c) { c.detector.matching.matcher.opencv.uniqueness_percent = 101; }},
+      {"left_right_px", [](Config& c) { c.detector.matching.matcher.opencv.left_right_px = 0; }},
+      {"speckle_size_px",
+       [](Config& c) { c.detector.matching.matcher.opencv.speckle_size_px = -1; }},
   });
 }
 

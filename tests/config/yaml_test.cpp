@@ -58,12 +58,12 @@ TEST(YamlTest, EveryKeyCanBeSet) {
 TEST(YamlTest, SetsWhatItSays) {
   Config config;
   set_value("sphere.step_deg=2", config);
-  set_value("matching.paths=5", config);
+  set_value("opencv.paths=5", config);
   set_value("evaluation.labels_may_end_early=true", config);
   set_value("dataset.cameras=grey", config);
   set_value("bounds.bottom_m=-1.25", config);
   EXPECT_NEAR(config.detector.sphere.bounds.step_rad, 0.03490658503988659, 1e-15);
-  EXPECT_EQ(config.detector.matching.matcher.paths, 5);
+  EXPECT_EQ(config.detector.matching.matcher.opencv.paths, 5);
   EXPECT_TRUE(config.evaluation.labels_may_end_early);
   EXPECT_EQ(config.dataset.cameras, CameraChoice::kGrey);
   EXPECT_EQ(config.bounds.bottom_m, -1.25);
@@ -111,7 +111,7 @@ TEST(YamlTest, AnUnknownKeySaysWhatIsKnown) {
 TEST(YamlTest, AWrongTypeIsRefused) {
   expect_refused({{"matching:\n  downscale: two\n", 2, "matching.downscale"},
                   {"matching:\n  downscale: 1.5\n", 2, "matching.downscale"},
-                  {"matching:\n\n  paths: [3]\n", 3, "matching.paths"},
+                  {"opencv:\n\n  paths: [3]\n", 3, "opencv.paths"},
                   {"map:\n  voxel_m: 0.5 m\n", 2, "map.voxel_m"},
                   {"sphere:\n  step_deg: {a: 1}\n", 2, "sphere.step_deg"},
                   {"evaluation:\n  labels_may_end_early: 2\n", 2, "labels_may_end_early"},
@@ -143,8 +143,8 @@ TEST(YamlTest, AValueOutsideItsDomainIsRefused) {
 
 TEST(YamlTest, AMatcherValueOutsideItsDomainIsRefused) {
   expect_refused({{"matching:\n  max_disparity_px: 20\n", 2, "matching.max_disparity_px"},
-                  {"matching:\n  block_px: 2\n", 2, "matching.block_px"},
-                  {"matching:\n  paths: 7\n", 2, "matching.paths"}});
+                  {"opencv:\n  block_px: 2\n", 2, "opencv.block_px"},
+                  {"opencv:\n  paths: 7\n", 2, "opencv.paths"}});
 }
 
 TEST(YamlTest, AGridThatDoesNotFitIsRefused) {
@@ -196,7 +196,7 @@ TEST(YamlTest, AMalformedAssignmentIsRefused) {
                                 "map.=1",
                                 ".voxel_m=1",
                                 "map.voxel_m.x=1",
-                                "matching.paths=3.5"}) {
+                                "opencv.paths=3.5"}) {
     SCOPED_TRACE(bad);
     Config config;
     EXPECT_THAT(message_of([&] { set_value(bad, config); }), HasSubstr(bad));
@@ -226,7 +226,7 @@ Config random_config(std::mt19937& random) {
   config.detector.matching.downscale = whole(1, 16);
   config.detector.matching.rcrop_px = whole(0, 100);
   config.detector.matching.matcher.max_disparity_px = 16 * whole(1, 16);
-  config.detector.matching.matcher.block_px = 2 * whole(0, 5) + 1;
+  config.detector.matching.matcher.opencv.block_px = 2 * whole(0, 5) + 1;
   config.detector.sphere.bounds.theta_min_rad = rad_from_deg(whole(0, 80));
   config.detector.sphere.bounds.phi_max_rad = rad_from_deg(whole(-40, 180));
   config.detector.sphere.sigma_threshold_m = pick(0.0, 2.0);
@@ -249,7 +249,8 @@ TEST(YamlProperty, WhatIsWrittenIsReadBackUnchanged) {
     load_config(folder.write("c.yaml", to_yaml(config)), loaded);
     EXPECT_EQ(loaded.dataset.cameras, config.dataset.cameras);
     EXPECT_EQ(loaded.detector.matching.downscale, config.detector.matching.downscale);
-    EXPECT_EQ(loaded.detector.matching.matcher.block_px, config.detector.matching.matcher.block_px);
+    EXPECT_EQ(loaded.detector.matching.matcher.opencv.block_px,
+              config.detector.matching.matcher.opencv.block_px);
     EXPECT_NEAR(loaded.detector.sphere.bounds.theta_min_rad,
                 config.detector.sphere.bounds.theta_min_rad,
                 1e-12);

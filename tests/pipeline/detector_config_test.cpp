@@ -46,8 +46,8 @@ TEST(DetectorConfigTest, RefusesMatcherSettingsOutsideTheirDomain) {
   range.matching.matcher.max_disparity_px = 17;
   EXPECT_THAT(refusal(range), HasSubstr("matching.max_disparity_px"));
   DetectorConfig block;
-  block.matching.matcher.block_px = 4;
-  EXPECT_THAT(refusal(block), HasSubstr("matching.block_px"));
+  block.matching.matcher.opencv.block_px = 4;
+  EXPECT_THAT(refusal(block), HasSubstr("opencv.block_px"));
 }
 
 TEST(DetectorConfigTest, RefusesADepthRuleOutsideItsDomain) {

@@ -284,9 +284,9 @@ TEST(ObstacleDetectorTest, RefusesSettingsOutsideTheirDomain) {
   EXPECT_THAT(message_of([&] { ObstacleDetector(front_rig(), downscale, map_grid()); }),
               HasSubstr("matching.downscale"));
   DetectorConfig matcher = small_config();
-  matcher.matching.matcher.paths = 4;
+  matcher.matching.matcher.opencv.paths = 4;
   EXPECT_THAT(message_of([&] { ObstacleDetector(front_rig(), matcher, map_grid()); }),
-              HasSubstr("matching.paths"));
+              HasSubstr("opencv.paths"));
   DetectorConfig model = small_config();
   model.sensor_model.p_free = 0.0;
   EXPECT_THAT(message_of([&] { ObstacleDetector(front_rig(), model, map_grid()); }),

@@ -552,7 +552,7 @@ TEST_F(CommandLineSystem, ABadSettingIsNamed) {
            {"map.voxel_m=small", "map.voxel_m"},
            {"map.voxel_m=-1", "map.voxel_m"},
            {"matching.max_disparity_px=20", "max_disparity_px"},
-           {"matching.paths=7", "paths"},
+           {"opencv.paths=7", "paths"},
            {"sphere.step_deg=3", "step"},
            {"nonsense", "nonsense"}}) {
     SCOPED_TRACE(assignment);

@@ -20,7 +20,8 @@ struct EnumWords;
 
 template <>
 struct EnumWords<MatcherKind> {
-  static constexpr std::array kWords{std::pair{MatcherKind::kOpencv, std::string_view("opencv")}};
+  static constexpr std::array kWords{std::pair{MatcherKind::kSgm, std::string_view("sgm")},
+                                     std::pair{MatcherKind::kOpencv, std::string_view("opencv")}};
 };
 
 template <>
@@ -51,7 +52,7 @@ void visit_dataset(Dataset& dataset, Visitor& visitor) {
 template <class Matching, class Visitor>
 void visit_matching(Matching& matching, Visitor& visitor) {
   visitor.section("matching", "from images to disparities (thesis 5.1, 5.2)");
-  visitor.field("matcher", matching.matcher.kind, "the engine: opencv");
+  visitor.field("matcher", matching.matcher.kind, "the engine: sgm (our own) or opencv");
   visitor.field("downscale", matching.downscale, "whole factor by which images are shrunk, 1...16");
   visitor.field("max_disparity_px",
                 matching.matcher.max_disparity_px,
@@ -62,20 +63,52 @@ void visit_matching(Matching& matching, Visitor& visitor) {
   visitor.field("masks_px",
                 matching.masks_px,
                 "airframe: list of [u, v, width, height] in full-resolution pixels");
-  visitor.field("block_px", matching.matcher.block_px, "side of the matched block, odd, 1...11");
-  visitor.field("paths", matching.matcher.paths, "aggregation paths: 3, 5 or 8");
+}
+
+template <class Sgm, class Visitor>
+void visit_sgm(Sgm& sgm, Visitor& visitor) {
+  visitor.section("sgm",
+                  "our own matcher; costs are halves of census bits, lengths matched pixels");
+  visitor.field("p1", sgm.p1, "penalty of a step of one disparity along a path");
+  visitor.field("p2_min", sgm.p2_min, "penalty of a larger step at an edge of the image");
+  visitor.field(
+      "p2_max", sgm.p2_max, "penalty of a larger step where the image is even, at most 51");
   visitor.field("uniqueness_percent",
-                matching.matcher.uniqueness_percent,
+                sgm.uniqueness_percent,
+                "by how much the best sum must beat those not beside it, 0...100");
+  visitor.field(
+      "left_right_px", sgm.left_right_px, "largest difference in the left-right check, 0...256");
+  visitor.field("texture_min_grey",
+                sgm.texture_min_grey,
+                "least range of grey within 9 x 9 px, 0...255; 0 for no check");
+  visitor.field("median_passes", sgm.median_passes, "how often the 5 x 5 median is taken, 0...10");
+  visitor.field("fill_min_px",
+                sgm.fill_min_px,
+                "disparities among 5 x 5 px that fill a hole, 1...26; 26 for never");
+  visitor.field("speckle_size_px",
+                sgm.speckle_size_px,
+                "smaller islands of disparity are discarded; 0 for none");
+  visitor.field("speckle_step_px", sgm.speckle_step_px, "a larger step parts islands");
+  visitor.field(
+      "edge_step_px", sgm.edge_step_px, "pixels beside a larger step are discarded; 0 for none");
+}
+
+template <class Sgbm, class Visitor>
+void visit_opencv(Sgbm& opencv, Visitor& visitor) {
+  visitor.section("opencv", "OpenCV's matcher, for those who choose it");
+  visitor.field("block_px", opencv.block_px, "side of the matched block, odd, 1...11");
+  visitor.field("paths", opencv.paths, "aggregation paths: 3, 5 or 8");
+  visitor.field("uniqueness_percent",
+                opencv.uniqueness_percent,
                 "by how much the best cost must beat the others, 0...100");
   visitor.field("left_right_px",
-                matching.matcher.left_right_px,
+                opencv.left_right_px,
                 "largest difference in the left-right check, at least 1");
   visitor.field("speckle_size_px",
-                matching.matcher.speckle_size_px,
+                opencv.speckle_size_px,
                 "smaller islands of disparity are discarded; 0 for none");
-  visitor.field("speckle_range_px",
-                matching.matcher.speckle_range_px,
-                "a step of disparity that parts islands");
+  visitor.field(
+      "speckle_range_px", opencv.speckle_range_px, "a step of disparity that parts islands");
 }
 
 template <class Sphere, class Visitor>
@@ -147,6 +180,8 @@ template <class AnyConfig, class Visitor>
 void visit_fields(AnyConfig& config, Visitor& visitor) {
   visit_dataset(config.dataset, visitor);
   visit_matching(config.detector.matching, visitor);
+  visit_sgm(config.detector.matching.matcher.sgm, visitor);
+  visit_opencv(config.detector.matching.matcher.opencv, visitor);
   visit_sphere(config.detector.sphere, visitor);
   visit_sensor_model(config.detector.sensor_model, visitor);
   visit_map(config.detector.map, visitor);

@@ -3,8 +3,10 @@
 #include <opencv2/core/mat.hpp>
 #include <variant>
 
+#include "skyhalo/stereo/grey_images.hpp"
 #include "skyhalo/stereo/matcher_config.hpp"
 #include "skyhalo/stereo/opencv_sgbm.hpp"
+#include "skyhalo/stereo/sgm_matcher.hpp"
 
 namespace skyhalo {
 
@@ -15,13 +17,16 @@ class Matcher {
   /// Throws `Error` (input) naming the key when a setting is outside its domain.
   explicit Matcher(const MatcherConfig& config);
 
-  /// Disparities (px) aligned with the right image: right pixel (u, v) matches left (u + d, v).
-  /// NaN where there is none. `left` and `right` are rectified and of one size; `disparity` gets
-  /// that size. The image must be wider than the largest disparity, or nothing is found.
-  void match(const cv::Mat1b& left, const cv::Mat1b& right, cv::Mat1f& disparity);
+  /// Disparities (px) aligned with the right image (right pixel (u, v) matches left (u + d, v)), or
+  /// with the left one if the configuration says so. NaN where there is none. `left` and `right`
+  /// are rectified, of one size and type: grey or colour (BGR, BGRA), 8 or 16 bits; `disparity`
+  /// gets that size. Throws `Error` (input) when they are not, or not wider than the search range.
+  void match(const cv::Mat& left, const cv::Mat& right, cv::Mat1f& disparity);
 
  private:
-  std::variant<OpencvSgbm> engine_;
+  int max_disparity_px_;
+  GreyImages grey_;
+  std::variant<SgmMatcher, OpencvSgbm> engine_;
 };
 
 }  // namespace skyhalo

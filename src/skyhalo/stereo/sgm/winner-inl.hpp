@@ -1,0 +1,110 @@
+// The winner of a step's lanes, compiled once for each instruction set.
+#if defined(SKYHALO_SGM_WINNER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKYHALO_SGM_WINNER_INL_HPP
+#undef SKYHALO_SGM_WINNER_INL_HPP
+#else
+#define SKYHALO_SGM_WINNER_INL_HPP
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "skyhalo/stereo/sgm/aggregation.hpp"
+
+HWY_BEFORE_NAMESPACE();
+
+namespace skyhalo::sgm::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::ScalableTag<std::uint8_t>;
+using Lane8 = hn::Vec<Bytes>;
+
+/// The winners of one step's lanes and the sums around them.
+struct WinnerRow {
+  std::uint8_t* disparity;  ///< the first that has the least sum
+  std::uint8_t* best;       ///< that sum
+  std::uint8_t* below;      ///< the sums one disparity below and above; nothing at the range's ends
+  std::uint8_t* above;
+  std::uint8_t* second;  ///< the least sum two or more disparities away
+};
+
+/// Offers a sum to the left image's pixels, which stand in the same lane d steps on. The smallest
+/// disparity of the least sum stays: they come in rising order (`kRising`) or in falling order.
+template <bool kRising>
+HWY_INLINE void offer_to_left(Lane8 sum,
+                              Lane8 disparity,
+                              std::uint8_t* cost,
+                              std::uint8_t* winner) {
+  const Bytes bytes;
+  const auto before = hn::Load(bytes, cost);
+  const auto least = hn::Min(before, sum);
+  hn::Store(least, bytes, cost);
+  const auto winner_before = hn::Load(bytes, winner);
+  hn::Store(kRising ? hn::IfThenElse(hn::Eq(least, before), winner_before, disparity)
+                    : hn::IfThenElse(hn::Eq(least, sum), disparity, winner_before),
+            bytes,
+            winner);
+}
+
+/// Winner takes all, for both images at once. `sums` holds four paths of one sweep, `half_sum` the
+/// other four; S is the mean of the two, rounded up.
+template <bool kRising, bool kTail>
+HWY_INLINE void pick_winners(const Sweep& sweep,
+                             std::ptrdiff_t step,
+                             const std::uint8_t* HWY_RESTRICT sums,
+                             const WinnerRow& out) {
+  const Bytes bytes;
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
+  const std::ptrdiff_t disparities = sweep.in.layout.disparities;
+  const std::uint8_t* const half_sum = sweep.out.half_sum + step * disparities * lanes;
+  // The other sweep's sums are far away by now: those of the next step are asked for early.
+  const std::uint8_t* const next_half_sum = half_sum + (kRising ? -1 : 1) * disparities * lanes;
+  const auto inside = hn::Load(bytes, sweep.in.inside + step * lanes);
+  const auto limit = hn::Load(bytes, sweep.in.limit + step * lanes);
+  const auto most = hn::Set(bytes, 255);
+  auto best = most;          // of all so far
+  auto best_but_one = most;  // of all so far but the last
+  auto last = most;
+  auto second = most;
+  auto below = most;
+  auto above = most;
+  auto winner = hn::Zero(bytes);
+  auto last_lost = hn::Eq(most, most);  // the last did not become the best
+  for (std::ptrdiff_t d = 0; d < disparities; ++d) {
+    hwy::Prefetch(next_half_sum + d * lanes);
+    const auto sum =
+        hn::AverageRound(hn::Load(bytes, sums + d * lanes), hn::Load(bytes, half_sum + d * lanes));
+    const auto disparity = hn::Set(bytes, static_cast<std::uint8_t>(d));
+    const auto new_best = hn::Min(best, sum);
+    const auto lost = hn::Eq(new_best, best);
+    second = hn::IfThenElse(last_lost, hn::Min(second, sum), second);
+    second = hn::IfThenElse(lost, second, best_but_one);
+    above = hn::IfThenElse(last_lost, above, sum);
+    below = hn::IfThenElse(lost, below, last);
+    winner = hn::IfThenElse(lost, winner, disparity);
+    best_but_one = best;
+    best = new_best;
+    last = sum;
+    last_lost = lost;
+    auto offered = sum;
+    if (kTail) {
+      const auto seen = hn::Eq(hn::Max(disparity, limit), limit);
+      offered = hn::IfThenElse(seen, hn::Or(sum, hn::Not(inside)), most);
+    }
+    offer_to_left<kRising>(offered,
+                           disparity,
+                           sweep.left.cost + (step + d) * lanes,
+                           sweep.left.disparity + (step + d) * lanes);
+  }
+  hn::Store(winner, bytes, out.disparity);
+  hn::Store(best, bytes, out.best);
+  hn::Store(below, bytes, out.below);
+  hn::Store(above, bytes, out.above);
+  hn::Store(second, bytes, out.second);
+}
+
+}  // namespace skyhalo::sgm::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#endif
