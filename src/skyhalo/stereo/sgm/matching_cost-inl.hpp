@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "skyhalo/stereo/sgm/aggregation.hpp"
+#include "skyhalo/stereo/sgm/rounded_mean-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 
@@ -40,7 +41,7 @@ HWY_INLINE void cost_rows(const SweepInput& in,
         hn::Add(hn::Add(hn::PopulationCount(hn::Xor(near, hn::Load(bytes, left))),
                         hn::PopulationCount(hn::Xor(middle, hn::Load(bytes, left + lanes)))),
                 hn::PopulationCount(hn::Xor(far, hn::Load(bytes, left + 2 * lanes))));
-    auto cost = hn::AverageRound(differing, hn::Zero(bytes));
+    auto cost = rounded_mean(differing, hn::Zero(bytes));
     if (kTail) {
       const auto disparity = hn::Set(bytes, static_cast<std::uint8_t>(d));
       const auto seen = hn::Eq(hn::Max(disparity, limit), limit);

@@ -69,21 +69,18 @@ HWY_INLINE void transpose_lanes(const Tile& tile, bool /*lanes_are_rows*/) {
 
 #else
 
-/// Sixteen rows of a tile in registers: its functions are unrolled by their index lists.
-struct TileRows {
-  hn::Vec<Half> row[16];  // NOLINT(*-avoid-c-arrays)
-};
+/// Sixteen rows of a tile in registers: what works on them is unrolled by its index list.
+using TileRows = hn::Vec<Half>[16];  // NOLINT(*-avoid-c-arrays)
 
 /// Interleaves rows i and i + 8 of sixteen. Four times this is the transpose.
 template <std::size_t... kIndex>
-HWY_INLINE TileRows interleaved(const TileRows& from,
-                                std::index_sequence<kIndex...> /*of halves*/) {
+HWY_INLINE void interleave(const TileRows& from,
+                           TileRows& to,
+                           std::index_sequence<kIndex...> /*of halves*/) {
   const Half bytes;
-  TileRows to;
-  ((to.row[2 * kIndex] = hn::InterleaveLower(bytes, from.row[kIndex], from.row[kIndex + 8]),
-    to.row[2 * kIndex + 1] = hn::InterleaveUpper(bytes, from.row[kIndex], from.row[kIndex + 8])),
+  ((to[2 * kIndex] = hn::InterleaveLower(bytes, from[kIndex], from[kIndex + 8]),
+    to[2 * kIndex + 1] = hn::InterleaveUpper(bytes, from[kIndex], from[kIndex + 8])),
    ...);
-  return to;
 }
 
 template <std::size_t... kIndex>
@@ -91,15 +88,15 @@ HWY_INLINE void transpose_rows(const Tile& tile, std::index_sequence<kIndex...> 
   const Half bytes;
   const auto halves = std::make_index_sequence<8>();
   TileRows rows;
-  ((rows.row[kIndex] =
+  TileRows other;
+  ((rows[kIndex] =
         hn::LoadU(bytes, tile.from + static_cast<std::ptrdiff_t>(kIndex) * tile.from_stride)),
    ...);
-  rows = interleaved(rows, halves);
-  rows = interleaved(rows, halves);
-  rows = interleaved(rows, halves);
-  rows = interleaved(rows, halves);
-  (hn::StoreU(
-       rows.row[kIndex], bytes, tile.to + static_cast<std::ptrdiff_t>(kIndex) * tile.to_stride),
+  interleave(rows, other, halves);
+  interleave(other, rows, halves);
+  interleave(rows, other, halves);
+  interleave(other, rows, halves);
+  (hn::StoreU(rows[kIndex], bytes, tile.to + static_cast<std::ptrdiff_t>(kIndex) * tile.to_stride),
    ...);
 }
 

@@ -5,8 +5,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "skyhalo/stereo/sgm/smoothing.cpp"
 #include <hwy/foreach_target.h>
-// It must come after what includes this file again for each target.
+// They must come after what includes this file again for each target.
 #include <hwy/highway.h>
+
+#include "skyhalo/stereo/sgm/rounded_mean-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 
@@ -23,11 +25,10 @@ void cross_rows(const Plane<std::uint8_t>& image, int first, int last, Plane<std
     const std::uint8_t* const below = image.row(v + 1);
     std::uint8_t* const to = cross.row(v);
     for (int u = 0; u < image.width(); u += static_cast<int>(hn::Lanes(bytes))) {
-      const auto column =
-          hn::AverageRound(hn::LoadU(bytes, above + u), hn::LoadU(bytes, below + u));
-      const auto row = hn::AverageRound(hn::LoadU(bytes, at + u - 1), hn::LoadU(bytes, at + u + 1));
-      const auto ring = hn::AverageRound(column, row);
-      hn::StoreU(hn::AverageRound(hn::LoadU(bytes, at + u), ring), bytes, to + u);
+      const auto column = rounded_mean(hn::LoadU(bytes, above + u), hn::LoadU(bytes, below + u));
+      const auto row = rounded_mean(hn::LoadU(bytes, at + u - 1), hn::LoadU(bytes, at + u + 1));
+      const auto ring = rounded_mean(column, row);
+      hn::StoreU(rounded_mean(hn::LoadU(bytes, at + u), ring), bytes, to + u);
     }
     cross.replicate_sides(v);
   }
@@ -36,8 +37,8 @@ void cross_rows(const Plane<std::uint8_t>& image, int first, int last, Plane<std
 /// avg(centre, avg(left, right)) of the vector at `at`.
 template <class D>
 HWY_INLINE hn::Vec<D> along_row(D bytes, const std::uint8_t* at) {
-  const auto sides = hn::AverageRound(hn::LoadU(bytes, at - 1), hn::LoadU(bytes, at + 1));
-  return hn::AverageRound(hn::LoadU(bytes, at), sides);
+  const auto sides = rounded_mean(hn::LoadU(bytes, at - 1), hn::LoadU(bytes, at + 1));
+  return rounded_mean(hn::LoadU(bytes, at), sides);
 }
 
 void box_rows(const Plane<std::uint8_t>& image, int first, int last, Plane<std::uint8_t>& box) {
@@ -48,8 +49,8 @@ void box_rows(const Plane<std::uint8_t>& image, int first, int last, Plane<std::
     const std::uint8_t* const below = image.row(v + 1);
     std::uint8_t* const to = box.row(v);
     for (int u = 0; u < image.width(); u += static_cast<int>(hn::Lanes(bytes))) {
-      const auto sides = hn::AverageRound(along_row(bytes, above + u), along_row(bytes, below + u));
-      hn::StoreU(hn::AverageRound(along_row(bytes, at + u), sides), bytes, to + u);
+      const auto sides = rounded_mean(along_row(bytes, above + u), along_row(bytes, below + u));
+      hn::StoreU(rounded_mean(along_row(bytes, at + u), sides), bytes, to + u);
     }
     box.replicate_sides(v);
   }

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "skyhalo/stereo/sgm/aggregation.hpp"
+#include "skyhalo/stereo/sgm/rounded_mean-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 
@@ -73,7 +74,7 @@ HWY_INLINE void pick_winners(const Sweep& sweep,
   for (std::ptrdiff_t d = 0; d < disparities; ++d) {
     hwy::Prefetch(next_half_sum + d * lanes);
     const auto sum =
-        hn::AverageRound(hn::Load(bytes, sums + d * lanes), hn::Load(bytes, half_sum + d * lanes));
+        rounded_mean(hn::Load(bytes, sums + d * lanes), hn::Load(bytes, half_sum + d * lanes));
     const auto disparity = hn::Set(bytes, static_cast<std::uint8_t>(d));
     const auto new_best = hn::Min(best, sum);
     const auto lost = hn::Eq(new_best, best);
