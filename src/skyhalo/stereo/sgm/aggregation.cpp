@@ -1,6 +1,6 @@
 #include "skyhalo/stereo/sgm/aggregation.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -28,22 +28,24 @@ int lanes_of_target() {
 }
 
 /// Offsets of a step's winners, or that they are none: not unique, or outside either image.
-HWY_INLINE void judge(const Sweep& sweep, std::ptrdiff_t step, const WinnerRow& row) {
+HWY_INLINE void judge(const Sweep& sweep, std::ptrdiff_t step, const Carry& winners) {
   const Bytes bytes;
   const Ints ints;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
   std::uint8_t* const offset = sweep.out.offset + step * lanes;
-  const auto winner = hn::Load(bytes, row.disparity);
+  const auto winner = winners.load(kWinner);
+  hn::Store(winner, bytes, sweep.out.disparity + step * lanes);
   const auto last = hn::Set(bytes, static_cast<std::uint8_t>(sweep.in.layout.disparities - 1));
   const auto at_end = hn::Or(hn::Eq(winner, hn::Zero(bytes)), hn::Eq(winner, last));
-  const auto best = hn::Load(bytes, row.best);
-  hn::Store(hn::IfThenElse(at_end, best, hn::Load(bytes, row.below)), bytes, row.below);
-  hn::Store(hn::IfThenElse(at_end, best, hn::Load(bytes, row.above)), bytes, row.above);
+  const auto best = winners.load(kBest);
+  winners.store(kBelowBest, hn::IfThenElse(at_end, best, winners.load(kBelowBest)));
+  winners.store(kAboveBest, hn::IfThenElse(at_end, best, winners.load(kAboveBest)));
+  const auto lane = [&](int which, std::ptrdiff_t i)
+                        HWY_ATTR { return widened(winners.memory + which * lanes + i); };
   for (std::ptrdiff_t i = 0; i < lanes; i += static_cast<std::ptrdiff_t>(hn::Lanes(ints))) {
-    const auto least = widened(row.best + i);
-    const auto bottom = parabola_bottom(widened(row.below + i), least, widened(row.above + i));
-    const auto unique =
-        is_unique(least, widened(row.second + i), sweep.settings.uniqueness_percent);
+    const auto least = lane(kBest, i);
+    const auto bottom = parabola_bottom(lane(kBelowBest, i), least, lane(kAboveBest, i));
+    const auto unique = is_unique(least, lane(kSecond, i), sweep.settings.uniqueness_percent);
     const auto judged = hn::IfThenElse(unique, bottom, hn::Set(ints, -128));
     const hn::Rebind<std::int8_t, Ints> signed_bytes;
     hn::StoreU(hn::DemoteTo(signed_bytes, judged),
@@ -57,26 +59,36 @@ HWY_INLINE void judge(const Sweep& sweep, std::ptrdiff_t step, const WinnerRow& 
   hn::Store(hn::IfThenElse(hn::And(seen, inside), hn::Load(bytes, offset), none), bytes, offset);
 }
 
-/// One step of a sweep: cost, four paths, and what its goal is.
-template <Way kWay, Goal kGoal, bool kTail>
-HWY_NOINLINE void advance(const Sweep& sweep, int step) {
-  const Bytes bytes;
-  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
-  constexpr int kShift = kWay == Way::kForward ? 1 : -1;
+/// The four paths of a sweep at one step, each with its predecessors: along the row and down the
+/// column, and along both diagonals.
+struct FourPaths {
+  TwoPaths straight;
+  TwoPaths diagonal;
+};
+
+template <Way kWay>
+FourPaths paths_of(const Sweep& sweep, int step) {
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(Bytes()));
   const SkewLayout& layout = sweep.in.layout;
   SweepState& state = *sweep.state;
-  const std::ptrdiff_t disparities = layout.disparities;
-
   // The columns that the last lane of one strip leaves, and the first of the next finds.
   const int leave = (step + layout.period - 2 * (layout.lanes - 1) % layout.period) % layout.period;
   const int find = (step + 2) % layout.period;
   const int out = kWay == Way::kForward ? leave : find;
   const int in = kWay == Way::kForward ? find : leave;
-  const auto path = [&](int slot, int edge) HWY_ATTR {
+  const auto path = [&](int slot, int edge) {
     return PathRows{
         state.rows(slot), state.least(slot), state.edge(in, edge), state.edge(out, edge)};
   };
+  const auto carry = [&](int which) { return Carry{state.carry() + which * kPathVectors * lanes}; };
+  return {{path(0, 0), path(1 + step % 2, 0), carry(0), carry(1)},
+          {path(3 + step % 3, 1), path(6, 2), carry(2), carry(3)}};
+}
 
+template <int kShift>
+HWY_INLINE void begin_paths(const Sweep& sweep, std::ptrdiff_t step, const FourPaths& paths) {
+  const Bytes bytes;
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
   const std::uint8_t* const guide = sweep.in.guide + step * sweep.in.guide_stride;
   const auto level = [&](int steps_before, int lanes_before) HWY_ATTR {
     return hn::LoadU(bytes,
@@ -87,38 +99,48 @@ HWY_NOINLINE void advance(const Sweep& sweep, int step) {
   const auto p2 = [&](int steps_before, int lanes_before) HWY_ATTR {
     return large_penalty(here, level(steps_before, lanes_before), inside, sweep.settings);
   };
+  begin_path(paths.straight.a, p2(1, 0), paths.straight.carry_a);
+  begin_path(paths.straight.b, p2(2, 1), paths.straight.carry_b);
+  begin_path(paths.diagonal.a, p2(3, 1), paths.diagonal.carry_a);
+  begin_path(paths.diagonal.b, p2(1, 1), paths.diagonal.carry_b);
+}
 
-  cost_rows<kTail>(sweep.in, step, state.costs());
-  extend_two<0, kShift, false, false>(path(0, 0),  // along the row, and along the column
-                                      p2(1, 0),
-                                      path(1 + step % 2, 0),
-                                      p2(2, 1),
-                                      sweep.settings,
-                                      disparities,
-                                      state.costs(),
-                                      nullptr,
-                                      state.sums());
-  constexpr bool kStream = kGoal == Goal::kStore;
-  std::uint8_t* const sums =
-      kStream ? sweep.out.half_sum + step * disparities * lanes : state.sums();
-  extend_two<kShift, kShift, true, kStream>(path(3 + step % 3, 1),  // the two diagonals
-                                            p2(3, 1),
-                                            path(6, 2),
-                                            p2(1, 1),
-                                            sweep.settings,
-                                            disparities,
-                                            state.costs(),
-                                            state.sums(),
-                                            sums);
-  if (kGoal == Goal::kFinish) {
-    HWY_ALIGN std::uint8_t memory[4 * HWY_MAX_BYTES];  // NOLINT(*-avoid-c-arrays)
-    const WinnerRow row{sweep.out.disparity + step * lanes,
-                        memory,
-                        memory + lanes,
-                        memory + 2 * lanes,
-                        memory + 3 * lanes};
-    pick_winners<kWay == Way::kBackward, kTail>(sweep, step, state.sums(), row);
-    judge(sweep, step, row);
+template <int kShift>
+HWY_INLINE void end_paths(const FourPaths& paths, std::ptrdiff_t disparities) {
+  store_least<0>(paths.straight.carry_a.load(kNewLeast), paths.straight.a, disparities);
+  store_least<kShift>(paths.straight.carry_b.load(kNewLeast), paths.straight.b, disparities);
+  store_least<kShift>(paths.diagonal.carry_a.load(kNewLeast), paths.diagonal.a, disparities);
+  store_least<kShift>(paths.diagonal.carry_b.load(kNewLeast), paths.diagonal.b, disparities);
+}
+
+/// One step of a sweep: cost, four paths, and what its goal is.
+template <Way kWay, Goal kGoal, bool kTail>
+HWY_NOINLINE void advance(const Sweep& sweep, int step) {
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(Bytes()));
+  constexpr int kShift = kWay == Way::kForward ? 1 : -1;
+  constexpr bool kStore = kGoal == Goal::kStore;
+  const std::ptrdiff_t disparities = sweep.in.layout.disparities;
+  SweepState& state = *sweep.state;
+  const FourPaths paths = paths_of<kWay>(sweep, step);
+  const Carry winners{state.carry() + 4 * kPathVectors * lanes};
+  begin_paths<kShift>(sweep, step, paths);
+  begin_winners(winners);
+  for (Block block; block.last < disparities;) {
+    block = {block.last, std::min(disparities, block.last + kBlockDisparities)};
+    cost_rows<kTail>(sweep.in, step, block, state.costs());
+    extend_two<0, kShift, false, false>(
+        paths.straight, sweep.settings.p1, block, {state.costs(), nullptr, state.sums()});
+    std::uint8_t* const sums =
+        kStore ? sweep.out.half_sum + (step * disparities + block.first) * lanes : state.sums();
+    extend_two<kShift, kShift, true, kStore>(
+        paths.diagonal, sweep.settings.p1, block, {state.costs(), state.sums(), sums});
+    if (!kStore) {
+      pick_winners<kWay == Way::kBackward, kTail>(sweep, step, block, sums, winners);
+    }
+  }
+  end_paths<kShift>(paths, disparities);
+  if (!kStore) {
+    judge(sweep, step, winners);
   }
 }
 
@@ -211,8 +233,9 @@ SweepState::SweepState(const SkewLayout& layout)
       rows_(2 * kPad + product(kSlots, slot_)),
       least_(2 * kPad + product(kSlots, least_stride_)),
       edges_(1 + product(layout.period, 3 * edge_size())),
-      costs_(product(disparities_, layout.lanes)),
-      sums_(product(disparities_, layout.lanes)) {
+      costs_(product(kBlockDisparities, layout.lanes)),
+      sums_(product(kBlockDisparities, layout.lanes)),
+      carry_(product(4 * 5 + 8, layout.lanes)) {
   clear();
 }
 
@@ -222,10 +245,10 @@ void SweepState::clear() noexcept {
   edges_.clear();
   const std::ptrdiff_t last_row = disparities_ * lanes_;
   for (int slot = 0; slot < kSlots; ++slot) {
-    std::memset(rows(slot) + last_row, 200, static_cast<std::size_t>(lanes_));
+    std::memset(rows(slot) + last_row, kMostCost, static_cast<std::size_t>(lanes_));
   }
   for (std::size_t at = 1; at < edges_.size(); at += static_cast<std::size_t>(edge_size())) {
-    edges_.data()[at + static_cast<std::size_t>(disparities_)] = 200;
+    edges_.data()[at + static_cast<std::size_t>(disparities_)] = kMostCost;
   }
 }
 

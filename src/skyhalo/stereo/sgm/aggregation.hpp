@@ -43,6 +43,19 @@ struct SweepOutput {
 /// The offset of a pixel without disparity; as a signed byte it is -128.
 inline constexpr std::uint8_t kNoOffset = 0x80;
 
+/// More than any path's cost, and still a byte when P1 is added.
+inline constexpr std::uint8_t kMostCost = 200;
+
+/// Disparities that go through all stages of a step together, so that what one stage leaves is
+/// still in the nearest cache for the next.
+inline constexpr int kBlockDisparities = 32;
+
+/// Disparities [first, last).
+struct Block {
+  std::ptrdiff_t first = 0;
+  std::ptrdiff_t last = 0;
+};
+
 /// Costs outside the other image, where nothing can be compared: what unlike pixels have.
 inline constexpr std::uint8_t kOutsideCost = 6;
 
@@ -55,7 +68,7 @@ class SweepState {
   /// Back to the start of a sweep.
   void clear() noexcept;
 
-  /// Path k's slot of two, three or one steps ago: rows of lanes by disparity, one more of 255.
+  /// Path k's slot of two, three or one steps ago: rows of lanes by disparity, then `kMostCost`.
   [[nodiscard]] std::uint8_t* rows(int slot) noexcept { return rows_.data() + kPad + slot * slot_; }
 
   /// The least cost of each lane of that slot.
@@ -64,15 +77,18 @@ class SweepState {
   }
 
   /// What lane and row at a strip's edge left in that column, for one of three paths: costs by
-  /// disparity, then 255, then their least.
+  /// disparity, then `kMostCost`, then their least.
   [[nodiscard]] std::uint8_t* edge(int column, int path) noexcept {
     return edges_.data() + 1 + (static_cast<std::ptrdiff_t>(column) * 3 + path) * edge_size();
   }
 
-  /// Two rows of lanes by disparity for the step at work.
+  /// Rows of lanes for the block of disparities at work.
   [[nodiscard]] std::uint8_t* costs() noexcept { return costs_.data(); }
 
   [[nodiscard]] std::uint8_t* sums() noexcept { return sums_.data(); }
+
+  /// Vectors that go on from block to block: five for each path, eight for the winners.
+  [[nodiscard]] std::uint8_t* carry() noexcept { return carry_.data(); }
 
  private:
   static constexpr std::ptrdiff_t kPad = AlignedBuffer<std::uint8_t>::kAlignment;
@@ -89,6 +105,7 @@ class SweepState {
   AlignedBuffer<std::uint8_t> edges_;
   AlignedBuffer<std::uint8_t> costs_;
   AlignedBuffer<std::uint8_t> sums_;
+  AlignedBuffer<std::uint8_t> carry_;
 };
 
 /// Everything that a sweep works on.

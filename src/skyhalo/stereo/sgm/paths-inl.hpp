@@ -73,59 +73,108 @@ HWY_INLINE Lane8 extended(Lane8 cost, Lane8 here, Lane8 beside, Lane8 jump, Lane
   return hn::Add(cost, hn::Sub(hn::Min(hn::Min(here, jump), beside), least));
 }
 
-/// Extends two paths by one step and writes the sum of their costs, plus `partial` if there is one.
+/// What goes on from one block of disparities to the next, a vector each.
+template <class V>
+struct CarryOf {
+  std::uint8_t* memory;
+
+  HWY_INLINE V load(int which) const {
+    const Bytes bytes;
+    return hn::Load(bytes, memory + which * static_cast<std::ptrdiff_t>(hn::Lanes(bytes)));
+  }
+
+  HWY_INLINE void store(int which, V values) const {
+    const Bytes bytes;
+    hn::Store(values, bytes, memory + which * static_cast<std::ptrdiff_t>(hn::Lanes(bytes)));
+  }
+};
+
+using Carry = CarryOf<Lane8>;
+
+/// The vectors of one path in its carry: where it may jump to, the least of the predecessors and of
+/// this step so far, and the predecessors at the last disparity and at the next, whose row in
+/// memory has a new lane at the edge by then.
+enum : int { kJump = 0, kLeast = 1, kNewLeast = 2, kBelow = 3, kHere = 4, kPathVectors = 5 };
+
+/// Begins a step of a path.
+HWY_INLINE void begin_path(const PathRows& path, Lane8 p2, const Carry& carry) {
+  const Bytes bytes;
+  const auto least = hn::Load(bytes, path.least);
+  carry.store(kJump, hn::Add(least, p2));
+  carry.store(kLeast, least);
+  carry.store(kNewLeast, hn::Set(bytes, kMostCost));
+  carry.store(kBelow, hn::Set(bytes, kMostCost));
+  carry.store(kHere, hn::Load(bytes, path.costs));
+}
+
+/// Two paths that go on together.
+struct TwoPaths {
+  PathRows a;
+  PathRows b;
+  Carry carry_a;
+  Carry carry_b;
+};
+
+/// Where a block's costs come from, and where its sums over the paths go: rows of lanes.
+struct BlockRows {
+  const std::uint8_t* cost;
+  const std::uint8_t* partial;
+  std::uint8_t* sums;
+};
+
+/// Extends two paths by one step, for a block of disparities, and writes the sum of their costs,
+/// plus `partial` if there is one.
 template <int kShiftA, int kShiftB, bool kPartial, bool kStream>
-HWY_INLINE void extend_two(const PathRows& path_a,
-                           Lane8 p2_a,
-                           const PathRows& path_b,
-                           Lane8 p2_b,
-                           const SweepSettings& settings,
-                           std::ptrdiff_t disparities,
-                           const std::uint8_t* HWY_RESTRICT cost,
-                           const std::uint8_t* partial,
-                           std::uint8_t* sums) {
+HWY_INLINE void extend_two(const TwoPaths& paths,
+                           std::uint8_t small_penalty,
+                           const Block& block,
+                           const BlockRows& rows) {
   const Bytes bytes;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
-  const auto p1 = hn::Set(bytes, settings.p1);
-  const auto most = hn::Set(bytes, 200);
-  const auto least_a = hn::Load(bytes, path_a.least);
-  const auto least_b = hn::Load(bytes, path_b.least);
-  const auto jump_a = hn::Add(least_a, p2_a);
-  const auto jump_b = hn::Add(least_b, p2_b);
-  auto below_a = most;  // at d - 1
-  auto below_b = most;
-  auto here_a = hn::Load(bytes, path_a.costs);
-  auto here_b = hn::Load(bytes, path_b.costs);
-  auto new_least_a = most;
-  auto new_least_b = most;
-  for (std::ptrdiff_t d = 0; d < disparities; ++d) {
-    const auto c = hn::Load(bytes, cost + d * lanes);
-    const auto above_a = hn::Load(bytes, path_a.costs + (d + 1) * lanes);
-    const auto above_b = hn::Load(bytes, path_b.costs + (d + 1) * lanes);
+  const auto p1 = hn::Set(bytes, small_penalty);
+  const auto jump_a = paths.carry_a.load(kJump);
+  const auto jump_b = paths.carry_b.load(kJump);
+  const auto least_a = paths.carry_a.load(kLeast);
+  const auto least_b = paths.carry_b.load(kLeast);
+  auto new_least_a = paths.carry_a.load(kNewLeast);
+  auto new_least_b = paths.carry_b.load(kNewLeast);
+  auto below_a = paths.carry_a.load(kBelow);
+  auto below_b = paths.carry_b.load(kBelow);
+  auto here_a = paths.carry_a.load(kHere);
+  auto here_b = paths.carry_b.load(kHere);
+  std::ptrdiff_t row = 0;
+  for (std::ptrdiff_t d = block.first; d < block.last; ++d, row += lanes) {
+    const auto c = hn::Load(bytes, rows.cost + row);
+    const auto above_a = hn::Load(bytes, paths.a.costs + (d + 1) * lanes);
+    const auto above_b = hn::Load(bytes, paths.b.costs + (d + 1) * lanes);
     const auto beside_a = hn::Add(hn::Min(below_a, above_a), p1);
     const auto beside_b = hn::Add(hn::Min(below_b, above_b), p1);
     const auto a = extended(c, here_a, beside_a, jump_a, least_a);
     const auto b = extended(c, here_b, beside_b, jump_b, least_b);
     new_least_a = hn::Min(new_least_a, a);
     new_least_b = hn::Min(new_least_b, b);
-    store_row<kShiftA>(a, path_a, d);
-    store_row<kShiftB>(b, path_b, d);
+    store_row<kShiftA>(a, paths.a, d);
+    store_row<kShiftB>(b, paths.b, d);
     auto sum = hn::Add(a, b);
     if (kPartial) {
-      sum = hn::Add(sum, hn::Load(bytes, partial + d * lanes));
+      sum = hn::Add(sum, hn::Load(bytes, rows.partial + row));
     }
     if (kStream) {
-      hn::Stream(sum, bytes, sums + d * lanes);
+      hn::Stream(sum, bytes, rows.sums + row);
     } else {
-      hn::Store(sum, bytes, sums + d * lanes);
+      hn::Store(sum, bytes, rows.sums + row);
     }
     below_a = here_a;
     below_b = here_b;
     here_a = above_a;
     here_b = above_b;
   }
-  store_least<kShiftA>(new_least_a, path_a, disparities);
-  store_least<kShiftB>(new_least_b, path_b, disparities);
+  paths.carry_a.store(kNewLeast, new_least_a);
+  paths.carry_b.store(kNewLeast, new_least_b);
+  paths.carry_a.store(kBelow, below_a);
+  paths.carry_b.store(kBelow, below_b);
+  paths.carry_a.store(kHere, here_a);
+  paths.carry_b.store(kHere, here_b);
 }
 
 /// P2 between two neighbours on a path: less where the image has an edge, 0 outside the image.

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "skyhalo/stereo/sgm/aggregation.hpp"
+#include "skyhalo/stereo/sgm/paths-inl.hpp"
 #include "skyhalo/stereo/sgm/rounded_mean-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,14 +21,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Bytes = hn::ScalableTag<std::uint8_t>;
 using Lane8 = hn::Vec<Bytes>;
 
-/// The winners of one step's lanes and the sums around them.
-struct WinnerRow {
-  std::uint8_t* disparity;  ///< the first that has the least sum
-  std::uint8_t* best;       ///< that sum
-  std::uint8_t* below;      ///< the sums one disparity below and above; nothing at the range's ends
-  std::uint8_t* above;
-  std::uint8_t* second;  ///< the least sum two or more disparities away
+/// The vectors of the winners in their carry: of all disparities so far, and of all but the last,
+/// the least sum; the last sum; the least that is not beside the winner; the sums below and above
+/// the winner; the winner itself; whether the last was none.
+enum : int {
+  kBest = 0,
+  kBestButOne,
+  kLast,
+  kSecond,
+  kBelowBest,
+  kAboveBest,
+  kWinner,
+  kLastLost,
+  kWinnerVectors
 };
+
+/// Before the first disparity.
+HWY_INLINE void begin_winners(const Carry& carry) {
+  const Bytes bytes;
+  for (int which = 0; which < kWinnerVectors; ++which) {
+    carry.store(which, hn::Set(bytes, 255));
+  }
+}
 
 /// Offers a sum to the left image's pixels, which stand in the same lane d steps on. The smallest
 /// disparity of the least sum stays: they come in rising order (`kRising`) or in falling order.
@@ -52,29 +67,33 @@ HWY_INLINE void offer_to_left(Lane8 sum,
 template <bool kRising, bool kTail>
 HWY_INLINE void pick_winners(const Sweep& sweep,
                              std::ptrdiff_t step,
+                             const Block& block,
                              const std::uint8_t* HWY_RESTRICT sums,
-                             const WinnerRow& out) {
+                             const Carry& carry) {
   const Bytes bytes;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
-  const std::ptrdiff_t disparities = sweep.in.layout.disparities;
-  const std::uint8_t* const half_sum = sweep.out.half_sum + step * disparities * lanes;
+  const std::ptrdiff_t volume_step = sweep.in.layout.disparities * lanes;
+  const std::ptrdiff_t last_step = sweep.in.layout.steps - 1;
+  const std::ptrdiff_t next =
+      kRising ? std::max(step - 1, std::ptrdiff_t{0}) : std::min(step + 1, last_step);
+  const std::uint8_t* const half_sum = sweep.out.half_sum + step * volume_step;
   // The other sweep's sums are far away by now: those of the next step are asked for early.
-  const std::uint8_t* const next_half_sum = half_sum + (kRising ? -1 : 1) * disparities * lanes;
+  const std::uint8_t* const next_half_sum = sweep.out.half_sum + next * volume_step;
   const auto inside = hn::Load(bytes, sweep.in.inside + step * lanes);
   const auto limit = hn::Load(bytes, sweep.in.limit + step * lanes);
   const auto most = hn::Set(bytes, 255);
-  auto best = most;          // of all so far
-  auto best_but_one = most;  // of all so far but the last
-  auto last = most;
-  auto second = most;
-  auto below = most;
-  auto above = most;
-  auto winner = hn::Zero(bytes);
-  auto last_lost = hn::Eq(most, most);  // the last did not become the best
-  for (std::ptrdiff_t d = 0; d < disparities; ++d) {
+  auto best = carry.load(kBest);
+  auto best_but_one = carry.load(kBestButOne);
+  auto last = carry.load(kLast);
+  auto second = carry.load(kSecond);
+  auto below = carry.load(kBelowBest);
+  auto above = carry.load(kAboveBest);
+  auto winner = carry.load(kWinner);
+  auto last_lost = hn::Eq(carry.load(kLastLost), most);
+  for (std::ptrdiff_t d = block.first; d < block.last; ++d) {
     hwy::Prefetch(next_half_sum + d * lanes);
-    const auto sum =
-        rounded_mean(hn::Load(bytes, sums + d * lanes), hn::Load(bytes, half_sum + d * lanes));
+    const auto sum = rounded_mean(hn::Load(bytes, sums + (d - block.first) * lanes),
+                                  hn::Load(bytes, half_sum + d * lanes));
     const auto disparity = hn::Set(bytes, static_cast<std::uint8_t>(d));
     const auto new_best = hn::Min(best, sum);
     const auto lost = hn::Eq(new_best, best);
@@ -97,11 +116,14 @@ HWY_INLINE void pick_winners(const Sweep& sweep,
                            sweep.left.cost + (step + d) * lanes,
                            sweep.left.disparity + (step + d) * lanes);
   }
-  hn::Store(winner, bytes, out.disparity);
-  hn::Store(best, bytes, out.best);
-  hn::Store(below, bytes, out.below);
-  hn::Store(above, bytes, out.above);
-  hn::Store(second, bytes, out.second);
+  carry.store(kBest, best);
+  carry.store(kBestButOne, best_but_one);
+  carry.store(kLast, last);
+  carry.store(kSecond, second);
+  carry.store(kBelowBest, below);
+  carry.store(kAboveBest, above);
+  carry.store(kWinner, winner);
+  carry.store(kLastLost, hn::VecFromMask(bytes, last_lost));
 }
 
 }  // namespace skyhalo::sgm::HWY_NAMESPACE
