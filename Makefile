@@ -48,7 +48,8 @@ lint: setup-test
 bench: setup-test
 	cmake --preset release -DSKYHALO_BUILD_TESTS=ON -DSKYHALO_BUILD_BENCH=ON -DSKYHALO_BUILD_EXAMPLES=ON
 	cmake --build --preset release --parallel $(JOBS)
-	for program in build/release/bench/bench_*; do $$program --benchmark_repetitions=5 --benchmark_report_aggregates_only=true || exit 1; done
+	for layer in rectify sphere map; do build/release/bench/bench_$$layer --benchmark_repetitions=5 --benchmark_report_aggregates_only=true || exit 1; done
+	build/release/bench/bench_matcher
 
 asan: setup-test
 	cmake --preset asan

@@ -24,8 +24,8 @@ struct MatcherConfig {
   MatcherKind kind = MatcherKind::kSgm;
   int max_disparity_px = 64;  ///< disparities 0 up to below this; a multiple of 16 in [16, 256]
   Alignment alignment = Alignment::kRight;
-  SgmConfig sgm;
-  OpencvSgbmConfig opencv;
+  SgmConfig sgm = {};
+  OpencvSgbmConfig opencv = {};
 };
 
 /// Throws `Error` (input) naming the key when a setting is outside its domain.

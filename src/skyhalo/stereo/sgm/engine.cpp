@@ -106,16 +106,34 @@ void Engine::lay_out_limits() {
   }
 }
 
-void Engine::match(const GreyPair& pair, const ImageRows<float>& disparity_px, Executor& executor) {
-  prepare(pair, executor);
+void Engine::match(const GreyPair& pair,
+                   const ImageRows<float>& disparity_px,
+                   Executor& executor,
+                   EngineListener* listener) {
+  const auto done = [listener](EngineStage stage) {
+    if (listener != nullptr) {
+      listener->done(stage);
+    }
+  };
+  smooth_both(pair, executor);
+  done(EngineStage::kSmooth);
+  take_both_census(executor);
+  done(EngineStage::kCensus);
   skew_all(executor);
+  done(EngineStage::kSkew);
   sweep(executor);
-  gather(executor);
+  done(EngineStage::kSweeps);
+  check_winners(executor);
+  done(EngineStage::kLeftRight);
   fill_holes(executor);
-  finish(pair, disparity_px, executor);
+  done(EngineStage::kMedian);
+  drop_speckles(executor);
+  done(EngineStage::kSpeckles);
+  drop_edges(pair, disparity_px, executor);
+  done(EngineStage::kEdges);
 }
 
-void Engine::prepare(const GreyPair& pair, Executor& executor) {
+void Engine::smooth_both(const GreyPair& pair, Executor& executor) {
   const auto& left = pair.align_left ? pair.right : pair.left;
   const auto& right = pair.align_left ? pair.left : pair.right;
   for_each_row(executor, 0, size_.height_px, [&](int v) {
@@ -132,6 +150,9 @@ void Engine::prepare(const GreyPair& pair, Executor& executor) {
       mark_texture(right_.images.raw, v, config_.texture_min_grey, textured_);
     }
   });
+}
+
+void Engine::take_both_census(Executor& executor) {
   for_each_row(executor, 0, size_.height_px, [&](int v) {
     take_census(left_, v);
     take_census(right_, v);
@@ -263,7 +284,7 @@ void Engine::join_left_winners() noexcept {
   }
 }
 
-void Engine::gather(Executor& executor) {
+void Engine::check_winners(Executor& executor) {
   const int middle = layout_.steps / 2 / kBlock * kBlock;
   const std::size_t half = forward_left_.size() / 2;
   const auto block = [&](int i) {
@@ -299,15 +320,19 @@ void Engine::fill_holes(Executor& executor) {
   }
 }
 
-void Engine::finish(const GreyPair& pair,
-                    const ImageRows<float>& disparity_px,
-                    Executor& executor) {
-  if (config_.speckle_size_px > 1) {
-    for_each_row(executor, 0, size_.height_px, [&](int v) {
-      speckles_.look_at(disparity_64_, v, in_64ths(config_.speckle_step_px));
-    });
-    speckles_.drop_small(disparity_64_, config_.speckle_size_px);
+void Engine::drop_speckles(Executor& executor) {
+  if (config_.speckle_size_px <= 1) {
+    return;
   }
+  for_each_row(executor, 0, size_.height_px, [&](int v) {
+    speckles_.look_at(disparity_64_, v, in_64ths(config_.speckle_step_px));
+  });
+  speckles_.drop_small(disparity_64_, config_.speckle_size_px);
+}
+
+void Engine::drop_edges(const GreyPair& pair,
+                        const ImageRows<float>& disparity_px,
+                        Executor& executor) {
   for_each_row(executor, 0, size_.height_px, [&](int v) {
     float* const row = disparity_px_.row(v);
     drop_depth_edges(disparity_64_, v, in_64ths(config_.edge_step_px), row);

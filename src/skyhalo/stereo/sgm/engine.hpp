@@ -41,6 +41,31 @@ struct GreyPair {
   bool align_left = false;
 };
 
+/// What an engine does, one after the other.
+enum class EngineStage : std::uint8_t {
+  kSmooth,     ///< smoothed copies, texture
+  kCensus,     ///< census transform of both images
+  kSkew,       ///< from rows to the order of the sweeps
+  kSweeps,     ///< cost, eight paths, winners of both images, sub-pixel, uniqueness
+  kLeftRight,  ///< back to rows; left-right check
+  kMedian,     ///< median, holes filled
+  kSpeckles,   ///< small islands dropped
+  kEdges,      ///< pixels at depth edges dropped
+};
+
+/// Hears when a stage is done, for those who measure.
+class EngineListener {
+ public:
+  EngineListener() = default;
+  EngineListener(const EngineListener&) = default;
+  EngineListener(EngineListener&&) = default;
+  EngineListener& operator=(const EngineListener&) = default;
+  EngineListener& operator=(EngineListener&&) = default;
+  virtual ~EngineListener() = default;
+
+  virtual void done(EngineStage stage) = 0;
+};
+
 /// Semi-Global Matching (Hirschmueller 2008) from grey images to disparities, without OpenCV and
 /// without threads of its own. Made for one size; allocates nothing after that. Not for use by two
 /// threads at once.
@@ -57,7 +82,10 @@ class Engine {
 
   /// Disparities (px) aligned with the right image (or the left one): right pixel (u, v) matches
   /// left (u + d, v). NaN where there is none. The same bits whatever executor and vectors.
-  void match(const GreyPair& pair, const ImageRows<float>& disparity_px, Executor& executor);
+  void match(const GreyPair& pair,
+             const ImageRows<float>& disparity_px,
+             Executor& executor,
+             EngineListener* listener = nullptr);
 
  private:
   /// One image on its way to the skewed census.
@@ -70,7 +98,8 @@ class Engine {
 
   [[nodiscard]] Side make_side(int steps) const;
   void lay_out_limits();
-  void prepare(const GreyPair& pair, Executor& executor);
+  void smooth_both(const GreyPair& pair, Executor& executor);
+  void take_both_census(Executor& executor);
   void smooth(Side& side, int first, int last) noexcept;
   void take_census(Side& side, int v) noexcept;
   void place_guide(int v) noexcept;
@@ -78,9 +107,10 @@ class Engine {
   void skew_all(Executor& executor);
   void sweep(Executor& executor);
   void join_left_winners() noexcept;
-  void gather(Executor& executor);
+  void check_winners(Executor& executor);
   void fill_holes(Executor& executor);
-  void finish(const GreyPair& pair, const ImageRows<float>& disparity_px, Executor& executor);
+  void drop_speckles(Executor& executor);
+  void drop_edges(const GreyPair& pair, const ImageRows<float>& disparity_px, Executor& executor);
   [[nodiscard]] Sweep sweep_of(SweepState& state, AlignedBuffer<std::uint8_t>& left) noexcept;
   [[nodiscard]] LaneRows lane_rows_of(AlignedBuffer<std::uint8_t>& planes,
                                       int plane) const noexcept;
