@@ -24,6 +24,7 @@ inline std::vector<ConfigKey> config_keys() {
           {"sgm.uniqueness_percent", "5"},
           {"sgm.left_right_px", "1.5"},
           {"sgm.texture_min_grey", "4"},
+          {"sgm.repetition_px", "60"},
           {"sgm.median_passes", "2"},
           {"sgm.fill_min_px", "9"},
           {"sgm.speckle_size_px", "60"},

@@ -81,6 +81,9 @@ void visit_sgm(Sgm& sgm, Visitor& visitor) {
   visitor.field("texture_min_grey",
                 sgm.texture_min_grey,
                 "least range of grey within 9 x 9 px, 0...255; 0 for no check");
+  visitor.field("repetition_px",
+                sgm.repetition_px,
+                "pixels of 9 x 9 that look repeated and make one unsure, 1...82; 82 for no check");
   visitor.field("median_passes", sgm.median_passes, "how often the 5 x 5 median is taken, 0...10");
   visitor.field("fill_min_px",
                 sgm.fill_min_px,

@@ -45,7 +45,7 @@ void to_grey(const cv::Mat& image, cv::Mat& own, cv::Mat& grey) {
   grey = own;
 }
 
-/// The smallest level that more than `count` pixels reach.
+/// The smallest level that more than `count` pixels do not exceed.
 int level_above(const std::vector<std::uint32_t>& counts, std::uint64_t count) noexcept {
   std::uint64_t seen = 0;
   for (int level = 0; level < kLevels; ++level) {
@@ -81,8 +81,12 @@ void GreyImages::narrow() {
     }
   }
   const std::uint64_t pixels = 2 * wide_[0].total();
-  const int darkest = level_above(counts_, pixels / 1000);
-  const int brightest = level_above(counts_, pixels - 1 - pixels / 1000);
+  int darkest = level_above(counts_, 0);
+  int brightest = level_above(counts_, pixels - 1);
+  if (brightest - darkest > 255) {
+    darkest = level_above(counts_, pixels / 1000);
+    brightest = level_above(counts_, pixels - 1 - pixels / 1000);
+  }
   const int range = std::max(255, brightest - darkest);
   for (int level = 0; level < kLevels; ++level) {
     const int above = std::clamp(level - darkest, 0, range);

@@ -27,6 +27,7 @@ void check_sgm(const SgmConfig& config) {
       within(config.uniqueness_percent, 0, 100), "sgm.uniqueness_percent", "a number in 0...100");
   require(within(config.left_right_px, 0, 256), "sgm.left_right_px", "a number in 0...256");
   require(within(config.texture_min_grey, 0, 255), "sgm.texture_min_grey", "a number in 0...255");
+  require(within(config.repetition_px, 1, 82), "sgm.repetition_px", "a number in 1...82");
   require(within(config.median_passes, 0, 10), "sgm.median_passes", "a number in 0...10");
   require(within(config.fill_min_px, 1, 26), "sgm.fill_min_px", "a number in 1...26");
   require(config.speckle_size_px >= 0, "sgm.speckle_size_px", "a number >= 0");

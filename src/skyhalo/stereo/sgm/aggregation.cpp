@@ -35,6 +35,10 @@ HWY_INLINE void judge(const Sweep& sweep, std::ptrdiff_t step, const Carry& winn
   std::uint8_t* const offset = sweep.out.offset + step * lanes;
   const auto winner = winners.load(kWinner);
   hn::Store(winner, bytes, sweep.out.disparity + step * lanes);
+  const auto runs = winners.load(kRuns);
+  const auto repeated = hn::Eq(hn::Max(runs, hn::Set(bytes, kRepeatedRuns)), runs);
+  hn::Store(
+      hn::IfThenElseZero(repeated, hn::Set(bytes, 1)), bytes, sweep.out.repeated + step * lanes);
   const auto last = hn::Set(bytes, static_cast<std::uint8_t>(sweep.in.layout.disparities - 1));
   const auto at_end = hn::Or(hn::Eq(winner, hn::Zero(bytes)), hn::Eq(winner, last));
   const auto best = winners.load(kBest);
@@ -135,7 +139,8 @@ HWY_NOINLINE void advance(const Sweep& sweep, int step) {
     extend_two<kShift, kShift, true, kStore>(
         paths.diagonal, sweep.settings.p1, block, {state.costs(), state.sums(), sums});
     if (!kStore) {
-      pick_winners<kWay == Way::kBackward, kTail>(sweep, step, block, sums, winners);
+      pick_winners<kWay == Way::kBackward, kTail>(
+          sweep, step, block, {state.costs(), sums}, winners);
     }
   }
   end_paths<kShift>(paths, disparities);
@@ -235,7 +240,7 @@ SweepState::SweepState(const SkewLayout& layout)
       edges_(1 + product(layout.period, 3 * edge_size())),
       costs_(product(kBlockDisparities, layout.lanes)),
       sums_(product(kBlockDisparities, layout.lanes)),
-      carry_(product(4 * 5 + 8, layout.lanes)) {
+      carry_(product(4 * 5 + 10, layout.lanes)) {
   clear();
 }
 

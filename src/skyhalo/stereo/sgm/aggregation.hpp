@@ -38,10 +38,16 @@ struct SweepOutput {
   std::uint8_t* half_sum = nullptr;   ///< [steps][disparities][lanes]: the sum of four paths
   std::uint8_t* disparity = nullptr;  ///< [steps][lanes]: the winner
   std::uint8_t* offset = nullptr;     ///< [steps][lanes]: its offset in 1/64 px, or `kNoOffset`
+  std::uint8_t* repeated = nullptr;   ///< [steps][lanes]: 1 where it looks alike elsewhere, else 0
 };
 
 /// The offset of a pixel without disparity; as a signed byte it is -128.
 inline constexpr std::uint8_t kNoOffset = 0x80;
+
+/// Costs up to this say that two pixels look alike; a pixel that has so many runs of disparities
+/// where it does looks repeated.
+inline constexpr std::uint8_t kAlikeCost = 1;
+inline constexpr std::uint8_t kRepeatedRuns = 3;
 
 /// More than any path's cost, and still a byte when P1 is added.
 inline constexpr std::uint8_t kMostCost = 200;
@@ -87,7 +93,7 @@ class SweepState {
 
   [[nodiscard]] std::uint8_t* sums() noexcept { return sums_.data(); }
 
-  /// Vectors that go on from block to block: five for each path, eight for the winners.
+  /// Vectors that go on from block to block: five for each path, ten for the winners.
   [[nodiscard]] std::uint8_t* carry() noexcept { return carry_.data(); }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "skyhalo/stereo/sgm/depth_edge.hpp"
 #include "skyhalo/stereo/sgm/left_right.hpp"
+#include "skyhalo/stereo/sgm/repetition.hpp"
 #include "skyhalo/stereo/sgm/smoothing.hpp"
 #include "skyhalo/stereo/sgm/texture.hpp"
 
@@ -65,6 +66,8 @@ Engine::Engine(const SgmConfig& config, const EngineSize& size)
       right_(make_side(layout_.steps)),
       guide_(size.width_px, size.height_px),
       textured_(size.width_px, size.height_px),
+      repeated_(size.width_px, size.height_px),
+      confident_(size.width_px, size.height_px),
       guide_rows_(product(layout_.lanes + kGuideLanes, layout_.lane_stride())),
       guide_steps_(product(layout_.steps + 2 * kGuideLead, layout_.lanes + kGuideLanes)),
       limit_(product(layout_.steps, layout_.lanes)),
@@ -72,10 +75,10 @@ Engine::Engine(const SgmConfig& config, const EngineSize& size)
       forward_(layout_),
       backward_(layout_),
       half_sum_(product(layout_.steps, layout_.lanes) * product(layout_.disparities, 1)),
-      winners_(product(2 * layout_.steps, layout_.lanes)),
+      winners_(product(3 * layout_.steps, layout_.lanes)),
       forward_left_(product(2 * (layout_.steps + layout_.disparities), layout_.lanes)),
       backward_left_(product(2 * (layout_.steps + layout_.disparities), layout_.lanes)),
-      winner_rows_(product(3 * layout_.lanes, layout_.lane_stride())),
+      winner_rows_(product(4 * layout_.lanes, layout_.lane_stride())),
       disparity_64_(size.width_px, size.height_px),
       filled_64_(size.width_px, size.height_px),
       medians_{{size.width_px, size.height_px}, {size.width_px, size.height_px}},
@@ -245,7 +248,10 @@ Sweep Engine::sweep_of(SweepState& state, AlignedBuffer<std::uint8_t>& left) noe
            guide_stride,
            limit_.data(),
            inside_.data()},
-          {half_sum_.data(), winners_.data(), winners_.data() + winners_.size() / 2},
+          {half_sum_.data(),
+           winners_.data(),
+           winners_.data() + winners_.size() / 3,
+           winners_.data() + winners_.size() / 3 * 2},
           {left.data(), left.data() + half},
           {static_cast<std::uint8_t>(config_.p1),
            static_cast<std::uint8_t>(config_.p2_min),
@@ -284,24 +290,35 @@ void Engine::join_left_winners() noexcept {
   }
 }
 
-void Engine::check_winners(Executor& executor) {
+void Engine::back_to_rows(Executor& executor) {
   const int middle = layout_.steps / 2 / kBlock * kBlock;
-  const std::size_t half = forward_left_.size() / 2;
+  const std::size_t plane = winners_.size() / 3;
   const auto block = [&](int i) {
     const int step = i * kBlock;
     auto& left = step < middle ? backward_left_ : forward_left_;
-    const auto back = [&](std::uint8_t* steps, int plane) {
-      unskew({steps, layout_.lanes}, layout_.lanes, step, lane_rows_of(winner_rows_, plane));
+    const auto back = [&](std::uint8_t* steps, int to) {
+      unskew({steps, layout_.lanes}, layout_.lanes, step, lane_rows_of(winner_rows_, to));
     };
     back(winners_.data(), 0);
-    back(winners_.data() + winners_.size() / 2, 1);
-    back(left.data() + half, 2);
+    back(winners_.data() + plane, 1);
+    back(winners_.data() + 2 * plane, 2);
+    back(left.data() + left.size() / 2, 3);
   };
   executor.for_each(layout_.steps / kBlock, Task(block));
+}
+
+void Engine::check_winners(Executor& executor) {
+  back_to_rows(executor);
   const std::ptrdiff_t plane = layout_.lanes * layout_.lane_stride();
+  const auto winners = [&](int v) { return winner_rows_.data() + layout_.row_offset(v); };
   for_each_row(executor, 0, size_.height_px, [&](int v) {
-    const std::uint8_t* const row = winner_rows_.data() + layout_.row_offset(v);
-    check_left_right({row, row + plane, row + 2 * plane, textured_.row(v)},
+    std::copy_n(winners(v) + 2 * plane, size_.width_px, repeated_.row(v));
+    repeated_.replicate_sides(v);
+  });
+  for_each_row(executor, 0, size_.height_px, [&](int v) {
+    mark_confident(repeated_, textured_, v, config_.repetition_px, confident_);
+    const std::uint8_t* const row = winners(v);
+    check_left_right({row, row + plane, row + 3 * plane, confident_.row(v)},
                      size_.width_px,
                      in_64ths(config_.left_right_px),
                      disparity_64_.row(v));
@@ -318,6 +335,9 @@ void Engine::fill_holes(Executor& executor) {
     });
     std::swap(disparity_64_, filled_64_);
   }
+  for_each_row(executor, 0, size_.height_px, [&](int v) {
+    keep_confident(confident_.row(v), size_.width_px, disparity_64_.row(v));
+  });
 }
 
 void Engine::drop_speckles(Executor& executor) {

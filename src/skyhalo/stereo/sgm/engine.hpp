@@ -47,8 +47,8 @@ enum class EngineStage : std::uint8_t {
   kCensus,     ///< census transform of both images
   kSkew,       ///< from rows to the order of the sweeps
   kSweeps,     ///< cost, eight paths, winners of both images, sub-pixel, uniqueness
-  kLeftRight,  ///< back to rows; left-right check
-  kMedian,     ///< median, holes filled
+  kLeftRight,  ///< back to rows; repetition, left-right check
+  kMedian,     ///< median, holes filled where the image tells enough
   kSpeckles,   ///< small islands dropped
   kEdges,      ///< pixels at depth edges dropped
 };
@@ -108,6 +108,7 @@ class Engine {
   void sweep(Executor& executor);
   void join_left_winners() noexcept;
   void check_winners(Executor& executor);
+  void back_to_rows(Executor& executor);
   void fill_holes(Executor& executor);
   void drop_speckles(Executor& executor);
   void drop_edges(const GreyPair& pair, const ImageRows<float>& disparity_px, Executor& executor);
@@ -122,6 +123,8 @@ class Engine {
   Side right_;
   Plane<std::uint8_t> guide_;
   Plane<std::uint8_t> textured_;
+  Plane<std::uint8_t> repeated_;
+  Plane<std::uint8_t> confident_;
   AlignedBuffer<std::uint8_t> guide_rows_;
   AlignedBuffer<std::uint8_t> guide_steps_;
   AlignedBuffer<std::uint8_t> limit_;
@@ -129,10 +132,10 @@ class Engine {
   SweepState forward_;
   SweepState backward_;
   AlignedBuffer<std::uint8_t> half_sum_;
-  AlignedBuffer<std::uint8_t> winners_;        // disparity and offset
+  AlignedBuffer<std::uint8_t> winners_;        // disparity, offset and repetition
   AlignedBuffer<std::uint8_t> forward_left_;   // cost and disparity
   AlignedBuffer<std::uint8_t> backward_left_;  // likewise
-  AlignedBuffer<std::uint8_t> winner_rows_;    // disparity, offset and left disparity
+  AlignedBuffer<std::uint8_t> winner_rows_;    // these and the left disparity
   Plane<std::int16_t> disparity_64_;
   Plane<std::int16_t> filled_64_;
   RowMedians medians_;

@@ -15,7 +15,7 @@ void check_left_right(const WinnerColumns& winners,
     const int left_u = u + disparity < width ? u + disparity : width - 1;
     const int found = 64 * disparity + offset;
     const int difference = std::abs(64 * winners.left_disparity[left_u] - found);
-    const bool good = (offset != -128) & (difference <= tolerance_64) & (winners.textured[u] != 0);
+    const bool good = (offset != -128) & (difference <= tolerance_64) & (winners.confident[u] != 0);
     disparity_64[u] = static_cast<std::int16_t>(good ? found : -1);
   }
 }

@@ -23,7 +23,8 @@ using Lane8 = hn::Vec<Bytes>;
 
 /// The vectors of the winners in their carry: of all disparities so far, and of all but the last,
 /// the least sum; the last sum; the least that is not beside the winner; the sums below and above
-/// the winner; the winner itself; whether the last was none.
+/// the winner; the winner itself; whether the last was none; how many runs of disparities look
+/// alike, and whether the last does.
 enum : int {
   kBest = 0,
   kBestButOne,
@@ -33,6 +34,8 @@ enum : int {
   kAboveBest,
   kWinner,
   kLastLost,
+  kRuns,
+  kLastAlike,
   kWinnerVectors
 };
 
@@ -42,6 +45,8 @@ HWY_INLINE void begin_winners(const Carry& carry) {
   for (int which = 0; which < kWinnerVectors; ++which) {
     carry.store(which, hn::Set(bytes, 255));
   }
+  carry.store(kRuns, hn::Zero(bytes));
+  carry.store(kLastAlike, hn::Zero(bytes));
 }
 
 /// Offers a sum to the left image's pixels, which stand in the same lane d steps on. The smallest
@@ -62,13 +67,19 @@ HWY_INLINE void offer_to_left(Lane8 sum,
             winner);
 }
 
+/// Rows of lanes of a block of disparities.
+struct StepRows {
+  const std::uint8_t* costs;
+  const std::uint8_t* sums;
+};
+
 /// Winner takes all, for both images at once. `sums` holds four paths of one sweep, `half_sum` the
-/// other four; S is the mean of the two, rounded up.
+/// other four; S is the mean of the two, rounded up. `costs` tell where else a pixel looks alike.
 template <bool kRising, bool kTail>
 HWY_INLINE void pick_winners(const Sweep& sweep,
                              std::ptrdiff_t step,
                              const Block& block,
-                             const std::uint8_t* HWY_RESTRICT sums,
+                             const StepRows& rows,
                              const Carry& carry) {
   const Bytes bytes;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(bytes));
@@ -90,9 +101,12 @@ HWY_INLINE void pick_winners(const Sweep& sweep,
   auto above = carry.load(kAboveBest);
   auto winner = carry.load(kWinner);
   auto last_lost = hn::Eq(carry.load(kLastLost), most);
+  auto runs = carry.load(kRuns);
+  auto last_alike = hn::Eq(carry.load(kLastAlike), most);
+  const auto alike_cost = hn::Set(bytes, kAlikeCost);
   for (std::ptrdiff_t d = block.first; d < block.last; ++d) {
     hwy::Prefetch(next_half_sum + d * lanes);
-    const auto sum = rounded_mean(hn::Load(bytes, sums + (d - block.first) * lanes),
+    const auto sum = rounded_mean(hn::Load(bytes, rows.sums + (d - block.first) * lanes),
                                   hn::Load(bytes, half_sum + d * lanes));
     const auto disparity = hn::Set(bytes, static_cast<std::uint8_t>(d));
     const auto new_best = hn::Min(best, sum);
@@ -106,6 +120,10 @@ HWY_INLINE void pick_winners(const Sweep& sweep,
     best = new_best;
     last = sum;
     last_lost = lost;
+    const auto cost = hn::Load(bytes, rows.costs + (d - block.first) * lanes);
+    const auto alike = hn::Eq(hn::Min(cost, alike_cost), cost);
+    runs = hn::Sub(runs, hn::VecFromMask(bytes, hn::AndNot(last_alike, alike)));
+    last_alike = alike;
     auto offered = sum;
     if (kTail) {
       const auto seen = hn::Eq(hn::Max(disparity, limit), limit);
@@ -124,6 +142,8 @@ HWY_INLINE void pick_winners(const Sweep& sweep,
   carry.store(kAboveBest, above);
   carry.store(kWinner, winner);
   carry.store(kLastLost, hn::VecFromMask(bytes, last_lost));
+  carry.store(kRuns, runs);
+  carry.store(kLastAlike, hn::VecFromMask(bytes, last_alike));
 }
 
 }  // namespace skyhalo::sgm::HWY_NAMESPACE
