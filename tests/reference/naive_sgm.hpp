@@ -17,14 +17,15 @@ namespace skyhalo::reference {
 struct NaiveSgmSettings {
   int max_disparity_px = 64;   // D: disparities 0 to D - 1 are searched
   int p1 = 4;                  // penalty of a step of one disparity
-  int p2_max = 50;             // penalty of a larger step where the image is flat
-  int p2_min = 4;              // the least penalty of a larger step, at strong image edges
+  int p2_max = 47;             // penalty of a larger step where the image is flat
+  int p2_min = 7;              // the least penalty of a larger step, at strong image edges
   int uniqueness_percent = 2;  // the winner is better than the second by more than this
   int left_right_64 = 64;      // largest difference of the two directions
   int texture_min = 2;         // least grey level range of the 9x9 window
+  int repetition_px = 76;      // pixels of 9x9 that look repeated from which there is no match
   int fill_min = 11;           // valid pixels in 5x5 from which an invalid pixel is filled
   int median_passes = 3;
-  int speckle_size_px = 150;  // components with fewer pixels are dropped; 0 drops none
+  int speckle_size_px = 200;  // components with fewer pixels are dropped; 0 drops none
   int speckle_step_64 = 48;   // largest difference of linked neighbours
   int edge_step_64 = 192;     // largest difference to a neighbour; 0 skips the step
   bool align_left = false;    // the result is aligned with the left image instead of the right
@@ -366,6 +367,72 @@ inline int texture(const cv::Mat1b& image, int x, int y) {
   return brightest - darkest;
 }
 
+/// Number of runs of consecutive disparities at which pixel (x, y) matches almost perfectly, with a
+/// cost of at most 1.
+inline int good_runs(const Volume& cost, int x, int y) {
+  constexpr int kGoodCost = 1;
+  int runs = 0;
+  for (int d = 0; d < cost.disparities_px; ++d) {
+    if (cost.at(x, y, d) <= kGoodCost && (d == 0 || cost.at(x, y, d - 1) > kGoodCost)) {
+      ++runs;
+    }
+  }
+  return runs;
+}
+
+/// 1 where the matching cost has at least three good runs, as on a repeated pattern, else 0.
+inline cv::Mat1b looks_repeated(const Volume& cost) {
+  constexpr int kRepeatedRuns = 3;
+  cv::Mat1b result(cost.height_px, cost.width_px);
+  for (int y = 0; y < cost.height_px; ++y) {
+    for (int x = 0; x < cost.width_px; ++x) {
+      result(y, x) = good_runs(cost, x, y) >= kRepeatedRuns ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// Whether at least repetition_px of the 81 pixels of the 9x9 window, clamped to the border, are 1
+/// in `repeated`.
+inline bool is_ambiguous(const cv::Mat1b& repeated, int x, int y, int repetition_px) {
+  int count = 0;
+  for (int dy = -4; dy <= 4; ++dy) {
+    for (int dx = -4; dx <= 4; ++dx) {
+      count += clamped(repeated, x + dx, y + dy);
+    }
+  }
+  return count >= repetition_px;
+}
+
+/// 1 where the raw right image has enough texture and is not ambiguous, else 0.
+inline cv::Mat1b confident(const Volume& cost,
+                           const cv::Mat1b& right,
+                           const NaiveSgmSettings& settings) {
+  const cv::Mat1b repeated = looks_repeated(cost);
+  cv::Mat1b result(right.rows, right.cols);
+  for (int y = 0; y < right.rows; ++y) {
+    for (int x = 0; x < right.cols; ++x) {
+      const bool ambiguous = is_ambiguous(repeated, x, y, settings.repetition_px);
+      const bool textured = texture(right, x, y) >= settings.texture_min;
+      result(y, x) = !ambiguous && textured ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// Copy in which pixels that are 0 in `confident` have no disparity.
+inline cv::Mat1s only_confident(const cv::Mat1s& image_64, const cv::Mat1b& confident) {
+  cv::Mat1s result = image_64.clone();
+  for (int y = 0; y < image_64.rows; ++y) {
+    for (int x = 0; x < image_64.cols; ++x) {
+      if (confident(y, x) == 0) {
+        result(y, x) = kNoDisparity64;
+      }
+    }
+  }
+  return result;
+}
+
 /// Disparity of one right pixel in 1/64 px from the aggregated costs, or kNoDisparity64 where the
 /// match is outside the left image, not unique or not confirmed from the left (Hirschmueller
 /// 2008, disparity computation).
@@ -385,21 +452,19 @@ inline int winner_64(const Volume& sums, int x, int y, const NaiveSgmSettings& s
   return disparity_64;
 }
 
-/// Disparity image in 1/64 px from the aggregated costs S and the raw right image:
-/// kNoDisparity64 where winner_64 finds none and where the right image has too little texture.
+/// Disparity image in 1/64 px from the aggregated costs S, the matching cost C and the raw right
+/// image: kNoDisparity64 where winner_64 finds none and where the pixel is not confident.
 inline cv::Mat1s winner(const Volume& sums,
+                        const Volume& cost,
                         const cv::Mat1b& right,
                         const NaiveSgmSettings& settings) {
   cv::Mat1s result(right.rows, right.cols);
   for (int y = 0; y < right.rows; ++y) {
     for (int x = 0; x < right.cols; ++x) {
-      result(y, x) = kNoDisparity64;
-      if (texture(right, x, y) >= settings.texture_min) {
-        result(y, x) = static_cast<std::int16_t>(winner_64(sums, x, y, settings));
-      }
+      result(y, x) = static_cast<std::int16_t>(winner_64(sums, x, y, settings));
     }
   }
-  return result;
+  return only_confident(result, confident(cost, right, settings));
 }
 
 /// Whether (x, y) is inside the image and has a disparity.
@@ -608,10 +673,11 @@ inline cv::Mat1f right_aligned(const cv::Mat1b& left,
                                const cv::Mat1b& right,
                                const NaiveSgmSettings& settings) {
   const Volume cost = matching_cost(left, right, settings.max_disparity_px);
-  cv::Mat1s image_64 = winner(aggregate(cost, right, settings), right, settings);
+  cv::Mat1s image_64 = winner(aggregate(cost, right, settings), cost, right, settings);
   for (int pass = 0; pass < settings.median_passes; ++pass) {
     image_64 = median_filled(image_64, settings);
   }
+  image_64 = only_confident(image_64, confident(cost, right, settings));
   image_64 = without_speckles(image_64, settings);
   image_64 = without_edges(image_64, settings);
   return in_pixels(within_other_image(image_64));
