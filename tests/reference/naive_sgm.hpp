@@ -17,7 +17,7 @@ namespace skyhalo::reference {
 struct NaiveSgmSettings {
   int max_disparity_px = 64;   // D: disparities 0 to D - 1 are searched
   int p1 = 4;                  // penalty of a step of one disparity
-  int p2_max = 47;             // penalty of a larger step where the image is flat
+  int p2_max = 48;             // penalty of a larger step where the image is flat
   int p2_min = 7;              // the least penalty of a larger step, at strong image edges
   int uniqueness_percent = 2;  // the winner is better than the second by more than this
   int left_right_64 = 64;      // largest difference of the two directions
@@ -335,20 +335,21 @@ inline bool is_unique(const Volume& sums, int x, int y, int best, int uniqueness
   return 100 * sums.at(x, y, best) < (100 - uniqueness_percent) * second;
 }
 
-/// Winner in 1/64 px at the minimum of the parabola through the sums at best - 1, best and
-/// best + 1 (Hirschmueller 2008, disparity computation), rounded to the nearest integer, ties to
-/// even. The whole disparity at either end of the range and where the sums are not curved upwards.
+/// Winner in 1/64 px at the bottom of the V through the sums at best - 1, best and best + 1, whose
+/// two arms are equally steep (the steeper side gives the slope), rounded to the nearest integer,
+/// ties to even. The whole disparity at either end of the range and where neither neighbour is
+/// larger.
 inline int refined_64(const Volume& sums, int x, int y, int best) {
   if (best == 0 || best == sums.disparities_px - 1) {
     return 64 * best;
   }
   const int before = sums.at(x, y, best - 1);
   const int after = sums.at(x, y, best + 1);
-  const int curvature = before - 2 * sums.at(x, y, best) + after;
-  if (curvature <= 0) {
+  const int height = std::max(before, after) - sums.at(x, y, best);
+  if (height <= 0) {
     return 64 * best;
   }
-  const float offset_64 = static_cast<float>(32 * (before - after)) / static_cast<float>(curvature);
+  const float offset_64 = static_cast<float>(32 * (before - after)) / static_cast<float>(height);
   return 64 * best + static_cast<int>(std::nearbyint(offset_64));
 }
 

@@ -69,10 +69,11 @@ template <class Sgm, class Visitor>
 void visit_sgm(Sgm& sgm, Visitor& visitor) {
   visitor.section("sgm",
                   "our own matcher; costs are halves of census bits, lengths matched pixels");
-  visitor.field("p1", sgm.p1, "penalty of a step of one disparity along a path");
-  visitor.field("p2_min", sgm.p2_min, "penalty of a larger step at an edge of the image");
+  visitor.field("p1", sgm.p1, "penalty of a step of one disparity along a path, 0...p2_min");
   visitor.field(
-      "p2_max", sgm.p2_max, "penalty of a larger step where the image is even, at most 51");
+      "p2_min", sgm.p2_min, "penalty of a larger step at an edge of the image, p1...p2_max");
+  visitor.field(
+      "p2_max", sgm.p2_max, "penalty of a larger step where the image is even, p2_min...51");
   visitor.field("uniqueness_percent",
                 sgm.uniqueness_percent,
                 "by how much the best sum must beat those not beside it, 0...100");
@@ -91,9 +92,10 @@ void visit_sgm(Sgm& sgm, Visitor& visitor) {
   visitor.field("speckle_size_px",
                 sgm.speckle_size_px,
                 "smaller islands of disparity are discarded; 0 for none");
-  visitor.field("speckle_step_px", sgm.speckle_step_px, "a larger step parts islands");
-  visitor.field(
-      "edge_step_px", sgm.edge_step_px, "pixels beside a larger step are discarded; 0 for none");
+  visitor.field("speckle_step_px", sgm.speckle_step_px, "a larger step parts islands, 0...256");
+  visitor.field("edge_step_px",
+                sgm.edge_step_px,
+                "pixels beside a larger step are discarded, 0...256; 0 for none");
 }
 
 template <class Sgbm, class Visitor>

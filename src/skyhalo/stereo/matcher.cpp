@@ -7,6 +7,8 @@
 namespace skyhalo {
 namespace {
 
+constexpr int kLargestSidePx = 32767;
+
 void require(bool holds, const char* key, const char* expected) {
   if (!holds) {
     throw Error(ErrorKind::kInput, std::string(key) + ": expected " + expected);
@@ -77,6 +79,11 @@ void Matcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat1f& dispar
                 "stereo pair: images " + std::to_string(left.cols) +
                     " px wide are too narrow to search " + std::to_string(max_disparity_px_) +
                     " disparities");
+  }
+  if (left.cols > kLargestSidePx || left.rows > kLargestSidePx) {
+    throw Error(
+        ErrorKind::kInput,
+        "stereo pair: expected images of at most " + std::to_string(kLargestSidePx) + " px a side");
   }
   std::visit([&](auto& engine) { engine.match(grey_.left(), grey_.right(), disparity); }, engine_);
 }

@@ -20,7 +20,9 @@ class Matcher {
   /// Disparities (px) aligned with the right image (right pixel (u, v) matches left (u + d, v)), or
   /// with the left one if the configuration says so. NaN where there is none. `left` and `right`
   /// are rectified, of one size and type: grey or colour (BGR, BGRA), 8 or 16 bits; `disparity`
-  /// gets that size. Throws `Error` (input) when they are not, or not wider than the search range.
+  /// gets that size. Throws `Error` (input) when they are not, or not wider than the search range,
+  /// or beyond 32767 px a side; `Error` (failure) when there is not enough memory. Grey 8-bit
+  /// images are referred to until the next pair.
   void match(const cv::Mat& left, const cv::Mat& right, cv::Mat1f& disparity);
 
  private:

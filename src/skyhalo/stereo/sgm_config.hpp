@@ -8,7 +8,7 @@ namespace skyhalo {
 struct SgmConfig {
   int p1 = 4;                  ///< penalty of a step of one disparity, >= 0
   int p2_min = 7;              ///< penalty of a larger step where the image has an edge, >= p1
-  int p2_max = 47;             ///< the same where it has none, >= p2_min, <= 51
+  int p2_max = 48;             ///< the same where it has none, >= p2_min, <= 51
   int uniqueness_percent = 2;  ///< by how much the best sum must beat those not beside it, [0, 100]
   double left_right_px = 1.0;  ///< largest difference in the left-right check, [0, 256]
   int texture_min_grey = 2;    ///< least range of grey within 9 x 9 px, [0, 255]; 0: no check

@@ -7,9 +7,14 @@
 
 namespace skyhalo {
 
+namespace sgm {
+class Engine;
+}  // namespace sgm
+
 /// The project's own Semi-Global Matching (Hirschmueller 2008): eight paths, sub-pixel, checked
 /// from left and right. Its loops run on TBB's threads; the same bits with any number of them and
-/// on any processor. Allocates for the first pair of a size, and then no more.
+/// on any processor. Keeps memory for one size, about twice width x height x disparities bytes, and
+/// allocates when the size changes; within a frame only TBB does, for its tasks.
 class SgmMatcher {
  public:
   /// `config` is one that `check` lets through.
@@ -20,13 +25,15 @@ class SgmMatcher {
   SgmMatcher& operator=(SgmMatcher&& other) noexcept;
   ~SgmMatcher();
 
-  /// As `Matcher::match`; the images are of one size and wider than the largest disparity.
+  /// As `Matcher::match`; the images are of one size and wider than the largest disparity. Throws
+  /// `Error` (failure) when there is not enough memory for that size.
   void match(const cv::Mat1b& left, const cv::Mat1b& right, cv::Mat1f& disparity);
 
  private:
-  struct Memory;
+  void make_engine(int width_px, int height_px);
 
-  std::unique_ptr<Memory> memory_;
+  MatcherConfig config_;
+  std::unique_ptr<sgm::Engine> engine_;  // of the last size
 };
 
 }  // namespace skyhalo

@@ -48,7 +48,7 @@ HWY_INLINE void judge(const Sweep& sweep, std::ptrdiff_t step, const Carry& winn
                         HWY_ATTR { return widened(winners.memory + which * lanes + i); };
   for (std::ptrdiff_t i = 0; i < lanes; i += static_cast<std::ptrdiff_t>(hn::Lanes(ints))) {
     const auto least = lane(kBest, i);
-    const auto bottom = parabola_bottom(lane(kBelowBest, i), least, lane(kAboveBest, i));
+    const auto bottom = v_bottom(lane(kBelowBest, i), least, lane(kAboveBest, i));
     const auto unique = is_unique(least, lane(kSecond, i), sweep.settings.uniqueness_percent);
     const auto judged = hn::IfThenElse(unique, bottom, hn::Set(ints, -128));
     const hn::Rebind<std::int8_t, Ints> signed_bytes;
@@ -84,7 +84,7 @@ FourPaths paths_of(const Sweep& sweep, int step) {
     return PathRows{
         state.rows(slot), state.least(slot), state.edge(in, edge), state.edge(out, edge)};
   };
-  const auto carry = [&](int which) { return Carry{state.carry() + which * kPathVectors * lanes}; };
+  const auto carry = [&](int which) { return Carry{state.carry() + lanes * which * kPathVectors}; };
   return {{path(0, 0), path(1 + step % 2, 0), carry(0), carry(1)},
           {path(3 + step % 3, 1), path(6, 2), carry(2), carry(3)}};
 }
@@ -126,7 +126,7 @@ HWY_NOINLINE void advance(const Sweep& sweep, int step) {
   const std::ptrdiff_t disparities = sweep.in.layout.disparities;
   SweepState& state = *sweep.state;
   const FourPaths paths = paths_of<kWay>(sweep, step);
-  const Carry winners{state.carry() + 4 * kPathVectors * lanes};
+  const Carry winners{state.carry() + lanes * 4 * kPathVectors};
   begin_paths<kShift>(sweep, step, paths);
   begin_winners(winners);
   for (Block block; block.last < disparities;) {

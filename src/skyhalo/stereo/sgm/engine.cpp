@@ -1,6 +1,7 @@
 #include "skyhalo/stereo/sgm/engine.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -19,12 +20,14 @@ constexpr int kGuideLead = 16;   // steps before the first and after the last th
 constexpr int kGuideLanes = 16;  // lanes beside the strip's own
 constexpr int kBandRows = 16;
 
-std::size_t product(std::ptrdiff_t a, std::ptrdiff_t b) {
-  return static_cast<std::size_t>(a) * static_cast<std::size_t>(b);
+template <class... Factors>
+std::size_t product(Factors... factors) noexcept {
+  return (static_cast<std::size_t>(factors) * ...);
 }
 
+/// A positive length stays one: 0 means that there is no check.
 int in_64ths(double px) noexcept {
-  return static_cast<int>(std::lround(px * 64.0));
+  return px > 0.0 ? std::max(1, static_cast<int>(std::lround(px * 64.0))) : 0;
 }
 
 /// Calls `work(first, last)` for bands of the rows [begin, end).
@@ -74,16 +77,18 @@ Engine::Engine(const SgmConfig& config, const EngineSize& size)
       inside_(product(layout_.steps, layout_.lanes)),
       forward_(layout_),
       backward_(layout_),
-      half_sum_(product(layout_.steps, layout_.lanes) * product(layout_.disparities, 1)),
-      winners_(product(3 * layout_.steps, layout_.lanes)),
-      forward_left_(product(2 * (layout_.steps + layout_.disparities), layout_.lanes)),
-      backward_left_(product(2 * (layout_.steps + layout_.disparities), layout_.lanes)),
-      winner_rows_(product(4 * layout_.lanes, layout_.lane_stride())),
+      half_sum_(product(layout_.steps, layout_.lanes, layout_.disparities)),
+      winners_(product(3, layout_.steps, layout_.lanes)),
+      forward_left_(product(2, layout_.steps + layout_.disparities, layout_.lanes)),
+      backward_left_(product(2, layout_.steps + layout_.disparities, layout_.lanes)),
+      winner_rows_(product(4, layout_.lanes, layout_.lane_stride())),
       disparity_64_(size.width_px, size.height_px),
       filled_64_(size.width_px, size.height_px),
       medians_{{size.width_px, size.height_px}, {size.width_px, size.height_px}},
       speckles_(size.width_px, size.height_px),
       disparity_px_(size.width_px, size.height_px) {
+  assert(size.max_disparity_px % 16 == 0 && size.max_disparity_px <= 256);
+  assert(size.width_px > size.max_disparity_px && size.height_px > 0);
   disparity_64_.fill_margin(-1);
   filled_64_.fill_margin(-1);
   lay_out_limits();
@@ -93,8 +98,8 @@ Engine::Side Engine::make_side(int steps) const {
   const auto plane = [this] { return Plane<std::uint8_t>(size_.width_px, size_.height_px); };
   return {{plane(), plane(), plane()},
           {plane(), plane(), plane()},
-          AlignedBuffer<std::uint8_t>(product(3 * layout_.lanes, layout_.lane_stride())),
-          AlignedBuffer<std::uint8_t>(product(steps, 3 * layout_.lanes))};
+          AlignedBuffer<std::uint8_t>(product(3, layout_.lanes, layout_.lane_stride())),
+          AlignedBuffer<std::uint8_t>(product(3, steps, layout_.lanes))};
 }
 
 void Engine::lay_out_limits() {
@@ -169,7 +174,7 @@ void Engine::smooth(Side& side, int first, int last) noexcept {
 }
 
 LaneRows Engine::lane_rows_of(AlignedBuffer<std::uint8_t>& planes, int plane) const noexcept {
-  return {planes.data() + plane * layout_.lanes * layout_.lane_stride() + layout_.lead(),
+  return {planes.data() + layout_.lane_stride() * layout_.lanes * plane + layout_.lead(),
           layout_.lane_stride()};
 }
 
@@ -206,11 +211,12 @@ void Engine::place_guide(int v) noexcept {
 }
 
 void Engine::skew_side(Side& side, int step) noexcept {
+  const std::ptrdiff_t lanes = layout_.lanes;
   for (int plane = 0; plane < 3; ++plane) {
     skew(lane_rows_of(side.lane_rows, plane),
          layout_.lanes,
          step,
-         {side.steps.data() + plane * layout_.lanes, 3 * layout_.lanes});
+         {side.steps.data() + plane * lanes, 3 * lanes});
   }
 }
 

@@ -9,7 +9,7 @@ void check_left_right(const WinnerColumns& winners,
                       int tolerance_64,
                       std::int16_t* disparity_64) noexcept {
   for (int u = 0; u < width; ++u) {
-    const int offset = static_cast<std::int8_t>(winners.offset[u]);
+    const int offset = (winners.offset[u] ^ 0x80) - 0x80;  // as a signed byte
     const int disparity = winners.disparity[u];
     // Winners beyond the other image have no offset, but their column must be one that exists.
     const int left_u = u + disparity < width ? u + disparity : width - 1;

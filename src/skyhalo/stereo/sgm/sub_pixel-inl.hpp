@@ -24,17 +24,16 @@ HWY_INLINE hn::Vec<Ints> widened(const std::uint8_t* bytes) {
   return hn::PromoteTo(ints, hn::LoadU(hn::Rebind<std::uint8_t, Ints>(), bytes));
 }
 
-/// Where the parabola through three neighbouring sums has its bottom, in 1/64 px from the middle
-/// one, -32...32. None of the three is less than the middle one.
-HWY_INLINE hn::Vec<Ints> parabola_bottom(hn::Vec<Ints> below,
-                                         hn::Vec<Ints> best,
-                                         hn::Vec<Ints> above) {
+/// Where the V through three neighbouring sums has its bottom, in 1/64 px from the middle one,
+/// -32...32: its arms are equally steep, the higher neighbour gives the slope. Sums of census costs
+/// have that shape rather than a parabola's. None of the three is less than the middle one.
+HWY_INLINE hn::Vec<Ints> v_bottom(hn::Vec<Ints> below, hn::Vec<Ints> best, hn::Vec<Ints> above) {
   const Ints ints;
   const Floats floats;
   const auto slope = hn::ShiftLeft<5>(hn::Sub(below, above));
-  const auto curve = hn::Sub(hn::Add(below, above), hn::Add(best, best));
-  const auto divisor = hn::Max(curve, hn::Set(ints, 1));
-  // The division and its rounding to even are exact the same way on every machine.
+  const auto height = hn::Sub(hn::Max(below, above), best);
+  const auto divisor = hn::Max(height, hn::Set(ints, 1));
+  // IEEE division and rounding to even: the same on every x86 and aarch64.
   return hn::NearestInt(hn::Div(hn::ConvertTo(floats, slope), hn::ConvertTo(floats, divisor)));
 }
 

@@ -76,6 +76,7 @@ struct StepRows {
 /// Winner takes all, for both images at once. `sums` holds four paths of one sweep, `half_sum` the
 /// other four; S is the mean of the two, rounded up. `costs` tell where else a pixel looks alike.
 template <bool kRising, bool kTail>
+// NOLINTNEXTLINE(readability-function-size): vectors of unknown size cannot leave in a struct
 HWY_INLINE void pick_winners(const Sweep& sweep,
                              std::ptrdiff_t step,
                              const Block& block,
