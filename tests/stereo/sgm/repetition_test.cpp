@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <vector>
 
 #include "stereo/sgm/planes.hpp"
 
@@ -16,9 +15,13 @@ using testing::for_each_instruction_set;
 cv::Mat1b confident(const cv::Mat1b& repeated, const cv::Mat1b& textured, int repetition_px) {
   const sgm::Plane<std::uint8_t> repeated_plane = testing::grey_plane(repeated);
   const sgm::Plane<std::uint8_t> textured_plane = testing::grey_plane(textured);
+  sgm::Plane<std::uint8_t> counts(repeated.cols, repeated.rows);
+  for (int v = 0; v < repeated.rows; ++v) {
+    sgm::count_repeated(repeated_plane, v, counts);
+  }
   sgm::Plane<std::uint8_t> result(repeated.cols, repeated.rows);
   for (int v = 0; v < repeated.rows; ++v) {
-    sgm::mark_confident(repeated_plane, textured_plane, v, repetition_px, result);
+    sgm::mark_confident(counts, textured_plane, v, repetition_px, result);
   }
   return testing::image_of(result);
 }
@@ -66,10 +69,21 @@ TEST(RepetitionTest, NoCheckAtAllButTheTexture) {
 }
 
 TEST(RepetitionTest, TakesBackWhatIsNotConfident) {
-  const std::vector<std::uint8_t> sure{1, 0, 1, 0};
-  std::vector<std::int16_t> disparity_64{640, 641, -1, -1};
-  sgm::keep_confident(sure.data(), 4, disparity_64.data());
-  EXPECT_EQ(disparity_64, (std::vector<std::int16_t>{640, -1, -1, -1}));
+  const int width = 70;
+  for_each_instruction_set([&] {
+    sgm::Plane<std::uint8_t> sure(width, 1);
+    sgm::Plane<std::int16_t> disparity_64(width, 1);
+    disparity_64.fill_margin(-1);
+    for (int u = 0; u < width; ++u) {
+      sure.row(0)[u] = u % 3 == 0 ? 0 : 1;
+      disparity_64.row(0)[u] = static_cast<std::int16_t>(u % 5 == 0 ? -1 : 640 + u);
+    }
+    sgm::keep_confident(sure, 0, disparity_64);
+    for (int u = 0; u < width; ++u) {
+      EXPECT_EQ(disparity_64.row(0)[u], u % 3 == 0 || u % 5 == 0 ? -1 : 640 + u) << u;
+    }
+    EXPECT_EQ(disparity_64.row(0)[width], -1);
+  });
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ Engine::Engine(const SgmConfig& config, const EngineSize& size)
       guide_(size.width_px, size.height_px),
       textured_(size.width_px, size.height_px),
       repeated_(size.width_px, size.height_px),
+      repeated_counts_(size.width_px, size.height_px),
       confident_(size.width_px, size.height_px),
       guide_rows_(product(layout_.lanes + kGuideLanes, layout_.lane_stride())),
       guide_steps_(product(layout_.steps + 2 * kGuideLead, layout_.lanes + kGuideLanes)),
@@ -320,9 +321,10 @@ void Engine::check_winners(Executor& executor) {
   for_each_row(executor, 0, size_.height_px, [&](int v) {
     std::copy_n(winners(v) + 2 * plane, size_.width_px, repeated_.row(v));
     repeated_.replicate_sides(v);
+    count_repeated(repeated_, v, repeated_counts_);
   });
   for_each_row(executor, 0, size_.height_px, [&](int v) {
-    mark_confident(repeated_, textured_, v, config_.repetition_px, confident_);
+    mark_confident(repeated_counts_, textured_, v, config_.repetition_px, confident_);
     const std::uint8_t* const row = winners(v);
     check_left_right({row, row + plane, row + 3 * plane, confident_.row(v)},
                      size_.width_px,
@@ -341,9 +343,8 @@ void Engine::fill_holes(Executor& executor) {
     });
     std::swap(disparity_64_, filled_64_);
   }
-  for_each_row(executor, 0, size_.height_px, [&](int v) {
-    keep_confident(confident_.row(v), size_.width_px, disparity_64_.row(v));
-  });
+  for_each_row(
+      executor, 0, size_.height_px, [&](int v) { keep_confident(confident_, v, disparity_64_); });
 }
 
 void Engine::drop_speckles(Executor& executor) {

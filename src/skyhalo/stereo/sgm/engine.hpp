@@ -124,6 +124,7 @@ class Engine {
   Plane<std::uint8_t> guide_;
   Plane<std::uint8_t> textured_;
   Plane<std::uint8_t> repeated_;
+  Plane<std::uint8_t> repeated_counts_;
   Plane<std::uint8_t> confident_;
   AlignedBuffer<std::uint8_t> guide_rows_;
   AlignedBuffer<std::uint8_t> guide_steps_;
