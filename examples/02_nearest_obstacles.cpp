@@ -31,7 +31,7 @@ int main() {
   skyhalo::accumulate(disparity, pair, grid);
 
   const auto ahead = grid.geometry().cell_of(rad_from_deg(90), rad_from_deg(0));
-  const auto depth_m = ahead ? grid.depth_m(*ahead, {}) : std::nullopt;
+  const auto depth_m = ahead ? grid.depth_m(*ahead) : std::nullopt;
   if (!depth_m) {
     return 1;
   }

@@ -50,7 +50,7 @@ Config aloe_config() {
                                    .phi_min_rad = rad_from_deg(-10.0),
                                    .phi_max_rad = rad_from_deg(10.0),
                                    .step_rad = rad_from_deg(0.25)};
-  config.detector.sphere.sigma_threshold_m = 0.02;
+  config.detector.sphere.depth.sigma_threshold_m = 0.02;
   config.detector.map.voxel_m = 0.01;
   return config;
 }
@@ -65,15 +65,15 @@ cv::Mat3b colour(const cv::Mat& image) {
   return picture;
 }
 
-nlohmann::json summarise(const PairPerception& seen,
-                         const DenseMap& map,
-                         double occupied_probability) {
+nlohmann::json summarise(const ObstacleDetector& detector, double occupied_probability) {
+  const PairPerception& seen = detector.perception(0);
+  const DenseMap& map = detector.map();
   return {{"frame_sets", 1},
           {"density",
            static_cast<double>(seen.pixels.measured) / static_cast<double>(seen.disparity.total())},
           {"grid_cells", seen.grid.geometry().cell_count()},
           {"grid_cells_with_depth", seen.grid.occupied_cell_count()},
-          {"rays", seen.rays},
+          {"rays", detector.rays()},
           {"map_cells", map.grid().cell_count()},
           {"occupied_cells", occupied_points(map, occupied_probability).size()}};
 }
@@ -93,13 +93,13 @@ void demo(const DemoOptions& options) {
 
   const PairPerception& seen = detector.perception(0);
   const double p_occupied = config.evaluation.occupied_probability;
-  nlohmann::json summary = summarise(seen, detector.map(), p_occupied);
+  nlohmann::json summary = summarise(detector, p_occupied);
   summary["stages"] = stages_json(clock.times());
   summary["out"] = options.out;
   const std::vector<TitledPicture> pictures{
       {"right image", colour(frames.pairs.front().right)},
       {"disparity (bright is near)", disparity_picture(seen.disparity)},
-      {"spherical grid, unrolled (bright is near)", grid_picture(seen.grid, seen.depth, 8)},
+      {"spherical grid, unrolled (bright is near)", grid_picture(seen.grid, 8)},
       {"map slice from above (black is occupied)", slice_picture(detector.map(), 0.0, 4)}};
   write_png(out.file("overview.png"), contact_sheet(pictures, 2, 480));
   write_ply(out.file("map.ply"), occupied_points(detector.map(), p_occupied));

@@ -77,11 +77,12 @@ TEST(PictureTest, AGridIsSeenFromTheBody) {
                                          .theta_max_rad = rad_from_deg(100.0),
                                          .phi_min_rad = rad_from_deg(-30.0),
                                          .phi_max_rad = rad_from_deg(30.0),
-                                         .step_rad = rad_from_deg(10.0)}));
+                                         .step_rad = rad_from_deg(10.0)}),
+                     {.kind = DepthRuleKind::kMean});
   grid.add(3.0 * direction(rad_from_deg(85.0), rad_from_deg(25.0)));  // up and to the left, near
   grid.add(12.0 *
            direction(rad_from_deg(95.0), rad_from_deg(-25.0)));  // down and to the right, far
-  const cv::Mat3b picture = grid_picture(grid, {}, 5);
+  const cv::Mat3b picture = grid_picture(grid, 5);
   ASSERT_EQ(picture.size(), cv::Size(30, 10));  // 6 columns, 2 rows
   const cv::Vec3b near_colour = picture(2, 2);
   const cv::Vec3b far_colour = picture(7, 27);

@@ -1,7 +1,9 @@
 // Counts the allocations of the per-frame code between stereo matching and the map. This program
 // replaces the global operators new and delete.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -11,8 +13,10 @@
 #include <vector>
 
 #include "skyhalo/geometry/angle.hpp"
-#include "skyhalo/pipeline/grid_rays.hpp"
+#include "skyhalo/pipeline/halo_rays.hpp"
+#include "skyhalo/safety/velocity_limiter.hpp"
 #include "skyhalo/sphere/accumulate.hpp"
+#include "skyhalo/sphere/halo.hpp"
 #include "support/counted_new.hpp"
 
 namespace skyhalo {
@@ -45,7 +49,11 @@ TEST(AllocationTest, TheCounterCounts) {
   delete value;
 }
 
-TEST(AllocationTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAndMap) {
+class AllocationByRuleTest : public ::testing::TestWithParam<DepthRuleKind> {};
+
+TEST_P(AllocationByRuleTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAndMap) {
+  // TBB's own memory for tasks is not the library's.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const GridGeometry geometry = make_grid_geometry({.theta_min_rad = rad_from_deg(40.0),
                                                     .theta_max_rad = rad_from_deg(140.0),
                                                     .phi_min_rad = rad_from_deg(-50.0),
@@ -58,17 +66,22 @@ TEST(AllocationTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAndMap) {
                                                .disparity_offset_px = 0.0},
                           .T_body_camera = forward_camera(),
                           .max_range_m = 30.0};
-  RangeModel model;
-  model.pair = pair.model;
-  SphericalGrid grid(geometry);
-  const GridRays rays(geometry);
+  const std::vector<RangeModel> models{{.pair = pair.model, .sensor = {}}};
+  SphericalGrid grid(geometry, {.kind = GetParam(), .nearest_count = 1});
+  Accumulator accumulator(pair, cv::Size(80, 60), geometry, grid.rule());
+  Halo halo(geometry.theta_step_rad);
+  VelocityLimiter limiter({}, halo);
+  const HaloRays rays(halo.geometry());
   DenseMap map(
       make_voxel_grid({Eigen::Vector3d::Constant(-10.0), Eigen::Vector3d::Constant(10.0)}, 0.5));
   int sent = 0;
   const auto process = [&](const cv::Mat1f& disparity) {
     grid.clear();
-    (void)accumulate(disparity, pair, grid);
-    sent = rays.integrate(grid, model, Pose::Identity(), map);
+    (void)accumulator.accumulate(disparity, grid);
+    const std::array<PairGrid, 1> grids{{{&grid, Timestamp()}}};
+    halo.stitch(grids);
+    (void)limiter.limit(halo, {.desired_mps = {5.0, 1.0, 0.0}});
+    sent = rays.integrate(halo, models, Pose::Identity(), map);
   };
   process(random_disparity(1));
   for (unsigned frame = 2; frame < 6; ++frame) {
@@ -79,6 +92,13 @@ TEST(AllocationTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAndMap) {
     EXPECT_GT(sent, 100);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         AllocationByRuleTest,
+                         ::testing::Values(DepthRuleKind::kThesis,
+                                           DepthRuleKind::kMean,
+                                           DepthRuleKind::kNearest,
+                                           DepthRuleKind::kQuantile));
 
 }  // namespace
 }  // namespace skyhalo

@@ -53,11 +53,27 @@ TEST(DetectorConfigTest, RefusesMatcherSettingsOutsideTheirDomain) {
 TEST(DetectorConfigTest, RefusesADepthRuleOutsideItsDomain) {
   for (const double value : {-0.1, kNan, kInf}) {
     DetectorConfig threshold;
-    threshold.sphere.sigma_threshold_m = value;
+    threshold.sphere.depth.sigma_threshold_m = value;
     EXPECT_THAT(refusal(threshold), HasSubstr("sphere.sigma_threshold_m")) << value;
     DetectorConfig factor;
-    factor.sphere.sigma_factor = value;
+    factor.sphere.depth.sigma_factor = value;
     EXPECT_THAT(refusal(factor), HasSubstr("sphere.sigma_factor")) << value;
+  }
+}
+
+TEST(DetectorConfigTest, RefusesASeenRuleOutsideItsDomain) {
+  for (const double value : {0.0, -0.1, kNan, kInf}) {
+    DetectorConfig near;
+    near.sphere.seen.near_m = value;
+    EXPECT_THAT(refusal(near), HasSubstr("sphere.near_m")) << value;
+    DetectorConfig share;
+    share.sphere.seen.min_share = value;
+    EXPECT_THAT(refusal(share), HasSubstr("sphere.min_seen_share")) << value;
+  }
+  for (const double value : {-0.1, 0.8, kNan, kInf}) {
+    DetectorConfig window;
+    window.sphere.seen.window_rad = value;
+    EXPECT_THAT(refusal(window), HasSubstr("sphere.seen_window_deg")) << value;
   }
 }
 
@@ -95,6 +111,13 @@ TEST(DetectorConfigTest, RefusesGridBoundsThatAreNone) {
   DetectorConfig multiple;
   multiple.sphere.bounds.step_rad = rad_from_deg(7.0);
   EXPECT_THAT(refusal(multiple), HasSubstr("multiple"));
+  DetectorConfig sphere;  // a grid of its own, but none of all directions
+  sphere.sphere.bounds = {.theta_min_rad = rad_from_deg(70.0),
+                          .theta_max_rad = rad_from_deg(105.0),
+                          .phi_min_rad = rad_from_deg(-35.0),
+                          .phi_max_rad = rad_from_deg(35.0),
+                          .step_rad = rad_from_deg(7.0)};
+  EXPECT_THAT(refusal(sphere), HasSubstr("multiple of the step (7"));
 }
 
 }  // namespace

@@ -76,6 +76,39 @@ TEST(GridGeometryTest, HasNothingOutsideItsBounds) {
   EXPECT_EQ(cell_deg(grid, 180, 0), std::nullopt);
 }
 
+TEST(GridGeometryTest, AzimuthsWrapBehind) {
+  const GridGeometry grid = make_grid_geometry(bounds_deg(40, 140, 150, 210, 10));
+  EXPECT_EQ(grid.cols, 6);
+  EXPECT_EQ(cell_deg(grid, 45, 155), (GridCell{0, 0}));
+  EXPECT_EQ(cell_deg(grid, 45, 175), (GridCell{0, 2}));
+  EXPECT_EQ(cell_deg(grid, 45, 179.99), (GridCell{0, 2}));
+  EXPECT_EQ(cell_deg(grid, 45, -179.99), (GridCell{0, 3}));
+  EXPECT_EQ(cell_deg(grid, 45, -175), (GridCell{0, 3}));
+  EXPECT_EQ(cell_deg(grid, 45, -151), (GridCell{0, 5}));
+  EXPECT_EQ(cell_deg(grid, 45, -149), std::nullopt);
+  EXPECT_EQ(cell_deg(grid, 45, 149), std::nullopt);
+  EXPECT_EQ(cell_deg(grid, 45, 0), std::nullopt);
+}
+
+TEST(GridGeometryTest, AWholeCircleMayBeginAnywhere) {
+  const GridGeometry grid = make_grid_geometry(bounds_deg(0, 180, 90, 450, 10));
+  EXPECT_TRUE(grid.is_whole_circle());
+  EXPECT_TRUE(grid.reaches_down());
+  EXPECT_EQ(cell_deg(grid, 5, 90), (GridCell{0, 0}));
+  EXPECT_EQ(cell_deg(grid, 5, 89.9), (GridCell{0, 35}));
+  EXPECT_EQ(cell_deg(grid, 5, 0), (GridCell{0, 27}));
+  EXPECT_EQ(cell_deg(grid, 5, -180), (GridCell{0, 9}));
+}
+
+TEST(GridGeometryTest, TheWholeSphereHasAllDirections) {
+  const GridGeometry grid = whole_sphere(rad_from_deg(2.0));
+  EXPECT_EQ(grid.rows, 90);
+  EXPECT_EQ(grid.cols, 180);
+  EXPECT_EQ(cell_deg(grid, 90, 0), (GridCell{45, 90}));
+  EXPECT_THAT(testing::message_of([] { (void)whole_sphere(rad_from_deg(7.0)); }),
+              HasSubstr("multiple of the step"));
+}
+
 TEST(GridGeometryTest, BoundsAreHalfOpen) {
   // Bounds and step that floating point holds exactly: 4 rows and 8 columns of 0.25 rad.
   const GridGeometry grid = make_grid_geometry({.theta_min_rad = 0.5,
@@ -148,7 +181,8 @@ TEST(GridGeometryTest, RefusesThetaBoundsThatAreNone) {
 
 TEST(GridGeometryTest, RefusesPhiBoundsThatAreNone) {
   EXPECT_THAT(refusal(bounds_deg(40, 140, -182, 50, 2)), HasSubstr("phi"));
-  EXPECT_THAT(refusal(bounds_deg(40, 140, -50, 182, 2)), HasSubstr("phi"));
+  EXPECT_THAT(refusal(bounds_deg(40, 140, 180, 190, 2)), HasSubstr("phi_min"));
+  EXPECT_THAT(refusal(bounds_deg(40, 140, -50, 312, 2)), HasSubstr("phi_max"));
   EXPECT_THAT(refusal(bounds_deg(40, 140, 50, -50, 2)), HasSubstr("phi"));
   EXPECT_THAT(refusal(bounds_deg(40, 140, 50, 50, 2)), HasSubstr("phi"));
   EXPECT_THAT(refusal(bounds_deg(40, 140, -50, kNan, 2)), HasSubstr("phi"));

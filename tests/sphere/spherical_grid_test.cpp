@@ -1,5 +1,6 @@
 #include "skyhalo/sphere/spherical_grid.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,18 +12,21 @@
 
 #include "reference/naive_spherical_grid.hpp"
 #include "skyhalo/geometry/angle.hpp"
+#include "skyhalo/geometry/spherical.hpp"
+#include "support/expect_error.hpp"
 
 namespace skyhalo {
 namespace {
 
 constexpr GridCell kAhead{25, 25};  // of the thesis grid: theta 90...92, phi 0...2 deg
 
-SphericalGrid thesis_grid() {
+SphericalGrid thesis_grid(const DepthRule& rule = {.kind = DepthRuleKind::kThesis}) {
   return SphericalGrid(make_grid_geometry({.theta_min_rad = rad_from_deg(40.0),
                                            .theta_max_rad = rad_from_deg(140.0),
                                            .phi_min_rad = rad_from_deg(-50.0),
                                            .phi_max_rad = rad_from_deg(50.0),
-                                           .step_rad = rad_from_deg(2.0)}));
+                                           .step_rad = rad_from_deg(2.0)}),
+                       rule);
 }
 
 /// A point in the cell ahead at this distance.
@@ -58,50 +62,97 @@ TEST(SphericalGridTest, CellsKeepTheirPointsApart) {
 TEST(SphericalGridTest, ACellWithoutPointsHasNoDepth) {
   const SphericalGrid grid = thesis_grid();
   EXPECT_FALSE(grid.statistics(kAhead).has_value());
-  EXPECT_FALSE(grid.depth_m(kAhead, {}).has_value());
+  EXPECT_FALSE(grid.depth_m(kAhead).has_value());
   EXPECT_EQ(grid.occupied_cell_count(), 0);
 }
 
-TEST(SphericalGridTest, ASurfaceLiesThreeDeviationsBeforeItsMean) {
-  SphericalGrid grid = thesis_grid();
-  grid.add(ahead(9.9));
-  grid.add(ahead(10.1));
+/// The depth of the cell ahead with points at these ranges; NaN for none.
+double depth_of(const DepthRule& rule, const std::vector<double>& ranges_m) {
+  SphericalGrid grid = thesis_grid(rule);
+  for (const double range_m : ranges_m) {
+    grid.add(ahead(range_m));
+  }
+  return grid.depth_m(kAhead).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The thesis's rule, with the parts that a test asks for.
+DepthRule thesis_rule(double threshold_m, double factor, double floor_m = 0.0) {
+  return {.kind = DepthRuleKind::kThesis,
+          .sigma_threshold_m = threshold_m,
+          .sigma_factor = factor,
+          .min_range_m = floor_m};
+}
+
+TEST(DepthRuleTest, ASurfaceLiesThreeDeviationsBeforeItsMean) {
   // mu 10, sigma 0.1 < 0.5: 10 - 3 * 0.1, although nothing is nearer than 9.9.
-  EXPECT_NEAR(grid.depth_m(kAhead, {}).value(), 9.7, 1e-9);
-  EXPECT_NEAR(grid.depth_m(kAhead, {.sigma_factor = 1.0}).value(), 9.9, 1e-9);
-  EXPECT_NEAR(grid.depth_m(kAhead, {.sigma_factor = 0.0}).value(), 10.0, 1e-9);
+  EXPECT_NEAR(depth_of({.kind = DepthRuleKind::kThesis}, {9.9, 10.1}), 9.7, 1e-9);
+  EXPECT_NEAR(depth_of(thesis_rule(0.5, 1.0), {9.9, 10.1}), 9.9, 1e-9);
+  EXPECT_NEAR(depth_of(thesis_rule(0.5, 0.0), {9.9, 10.1}), 10.0, 1e-9);
 }
 
-TEST(SphericalGridTest, SeveralSurfacesGiveTheNearest) {
-  SphericalGrid grid = thesis_grid();
-  grid.add(ahead(5.0));
-  grid.add(ahead(10.0));
-  grid.add(ahead(12.0));
+TEST(DepthRuleTest, SeveralSurfacesGiveTheNearest) {
   // mu 9, sigma sqrt((16 + 1 + 9) / 3) = 2.94 > 0.5.
-  EXPECT_NEAR(grid.depth_m(kAhead, {}).value(), 5.0, 1e-12);
+  EXPECT_NEAR(depth_of({.kind = DepthRuleKind::kThesis}, {5.0, 10.0, 12.0}), 5.0, 1e-12);
 }
 
-TEST(SphericalGridTest, TheThresholdDecides) {
-  SphericalGrid grid = thesis_grid();
-  grid.add(ahead(9.0));
-  grid.add(ahead(11.0));  // mu 10, sigma 1
-  EXPECT_NEAR(grid.depth_m(kAhead, {.sigma_threshold_m = 1.01}).value(), 7.0, 1e-9);
-  EXPECT_NEAR(grid.depth_m(kAhead, {.sigma_threshold_m = 0.99}).value(), 9.0, 1e-12);
+TEST(DepthRuleTest, TheThresholdDecides) {
+  // mu 10, sigma 1
+  EXPECT_NEAR(depth_of(thesis_rule(1.01, 3.0), {9.0, 11.0}), 7.0, 1e-9);
+  EXPECT_NEAR(depth_of(thesis_rule(0.99, 3.0), {9.0, 11.0}), 9.0, 1e-12);
   // Nothing is below a threshold of zero.
-  SphericalGrid single = thesis_grid();
-  single.add(ahead(4.0));
-  EXPECT_NEAR(single.depth_m(kAhead, {.sigma_threshold_m = 0.0}).value(), 4.0, 1e-12);
+  EXPECT_NEAR(depth_of(thesis_rule(0.0, 3.0), {4.0}), 4.0, 1e-12);
 }
 
-TEST(SphericalGridTest, NoDepthIsBelowTheSmallestRange) {
-  SphericalGrid grid = thesis_grid();
-  grid.add(ahead(9.9));
-  grid.add(ahead(10.1));
-  EXPECT_NEAR(grid.depth_m(kAhead, {.min_range_m = 9.8}).value(), 9.8, 1e-12);
-  EXPECT_NEAR(grid.depth_m(kAhead, {.min_range_m = 9.6}).value(), 9.7, 1e-9);
+TEST(DepthRuleTest, NoDepthIsBelowTheSmallestRange) {
+  EXPECT_NEAR(depth_of(thesis_rule(0.5, 3.0, 9.8), {9.9, 10.1}), 9.8, 1e-12);
+  EXPECT_NEAR(depth_of(thesis_rule(0.5, 3.0, 9.6), {9.9, 10.1}), 9.7, 1e-9);
   // The other branch: the minimum is 9.9.
-  const DepthRule nearest{.sigma_threshold_m = 0.01, .min_range_m = 9.95};
-  EXPECT_NEAR(grid.depth_m(kAhead, nearest).value(), 9.95, 1e-12);
+  EXPECT_NEAR(depth_of(thesis_rule(0.01, 3.0, 9.95), {9.9, 10.1}), 9.95, 1e-12);
+  EXPECT_NEAR(
+      depth_of({.kind = DepthRuleKind::kMean, .min_range_m = 11.0}, {9.0, 10.0}), 11.0, 0.0);
+}
+
+TEST(DepthRuleTest, TheMeanIsTheMean) {
+  EXPECT_NEAR(depth_of({.kind = DepthRuleKind::kMean}, {2.0, 4.0, 12.0}), 6.0, 1e-12);
+}
+
+TEST(DepthRuleTest, TheNearestIsBorneOutByItsPoints) {
+  const auto nearest = [](int count, const std::vector<double>& ranges_m) {
+    return depth_of({.kind = DepthRuleKind::kNearest, .nearest_count = count}, ranges_m);
+  };
+  const std::vector<double> ranges_m{7.0, 3.0, 9.0, 3.5, 8.0, 1.0, 5.0, 6.0, 2.0};
+  EXPECT_NEAR(nearest(1, ranges_m), 1.0, 1e-12);
+  EXPECT_NEAR(nearest(3, ranges_m), 3.0, 1e-12);
+  EXPECT_NEAR(nearest(8, ranges_m), 8.0, 1e-12);
+  EXPECT_NEAR(nearest(2, {4.0, 4.0}), 4.0, 1e-12);
+  EXPECT_TRUE(std::isnan(nearest(3, {4.0, 4.0})));  // too few points: no depth
+}
+
+TEST(DepthRuleTest, TheQuantileLiesInItsClass) {
+  const auto quantile = [](double share, const std::vector<double>& ranges_m) {
+    return depth_of({.kind = DepthRuleKind::kQuantile, .quantile = share}, ranges_m);
+  };
+  // Between 8 and 16 m a class is half a metre: ten points in [8, 8.5), ten in [12, 12.5).
+  std::vector<double> ranges_m(10, 8.1);
+  ranges_m.insert(ranges_m.end(), 10, 12.2);
+  EXPECT_NEAR(quantile(0.25, ranges_m), 8.25, 1e-12);  // half of the first class
+  EXPECT_NEAR(quantile(0.5, ranges_m), 8.5, 1e-12);
+  EXPECT_NEAR(quantile(0.75, ranges_m), 12.25, 1e-12);
+  EXPECT_NEAR(quantile(0.0, ranges_m), 8.1, 1e-12);          // never below the nearest point
+  EXPECT_NEAR(quantile(1.0, {0.01, 1000.0}), 256.0, 1e-12);  // beyond the classes
+}
+
+TEST(DepthRuleTest, RefusesWhatIsOutsideItsDomain) {
+  const auto refusal = [](const DepthRule& rule) {
+    return testing::message_of([&] { check(rule, "sphere"); });
+  };
+  EXPECT_THAT(refusal({.nearest_count = 0}), ::testing::HasSubstr("sphere.nearest_count"));
+  EXPECT_THAT(refusal({.nearest_count = 9}), ::testing::HasSubstr("sphere.nearest_count"));
+  EXPECT_THAT(refusal({.quantile = 1.01}), ::testing::HasSubstr("sphere.quantile"));
+  EXPECT_THAT(refusal({.quantile = -0.01}), ::testing::HasSubstr("sphere.quantile"));
+  EXPECT_THAT(refusal({.sigma_factor = -1.0}), ::testing::HasSubstr("sphere.sigma_factor"));
+  EXPECT_THAT(refusal({.min_range_m = -1.0}), ::testing::HasSubstr("sphere.min_range_m"));
+  EXPECT_NO_THROW(check(DepthRule{}, "sphere"));
 }
 
 TEST(SphericalGridTest, EqualRangesHaveNoDeviation) {
@@ -171,7 +222,7 @@ void expect_same_cell(const SphericalGrid& grid,
                       const DepthRule& rule,
                       const reference::NaiveCell& expected) {
   const std::optional<CellStatistics> cell = grid.statistics(at);
-  const std::optional<double> depth_m = grid.depth_m(at, rule);
+  const std::optional<double> depth_m = grid.depth_m(at);
   ASSERT_EQ(cell.has_value(), expected.n > 0);
   ASSERT_EQ(depth_m.has_value(), expected.n > 0);
   EXPECT_TRUE(!cell || is_same(*cell, expected));
@@ -204,14 +255,21 @@ std::vector<Eigen::Vector3d> random_points(const reference::NaiveGridSpec& spec,
 }
 
 void compare_on_random_points(const reference::NaiveGridSpec& spec, unsigned seed) {
-  SphericalGrid grid(make_grid_geometry(
-      {spec.theta_min_rad, spec.theta_max_rad, spec.phi_min_rad, spec.phi_max_rad, spec.step_rad}));
+  const DepthRule rule{.kind = DepthRuleKind::kThesis,
+                       .sigma_threshold_m = 0.5,
+                       .sigma_factor = 3.0,
+                       .min_range_m = 1.5};
+  SphericalGrid grid(make_grid_geometry({spec.theta_min_rad,
+                                         spec.theta_max_rad,
+                                         spec.phi_min_rad,
+                                         spec.phi_max_rad,
+                                         spec.step_rad}),
+                     rule);
   std::vector<std::array<double, 3>> points;
   for (const Eigen::Vector3d& p_m : random_points(spec, seed)) {
     grid.add(p_m);
     points.push_back({p_m.x(), p_m.y(), p_m.z()});
   }
-  const DepthRule rule{.sigma_threshold_m = 0.5, .sigma_factor = 3.0, .min_range_m = 1.5};
   const std::vector<reference::NaiveCell> expected =
       reference::naive_spherical_grid(spec, points, rule.sigma_threshold_m, rule.min_range_m);
   const GridGeometry& geometry = grid.geometry();

@@ -60,18 +60,18 @@ cv::Mat3b disparity_picture(const cv::Mat1f& disparity_px) {
   return picture;
 }
 
-cv::Mat3b grid_picture(const SphericalGrid& grid, const DepthRule& rule, int cell_px) {
+cv::Mat3b grid_picture(const SphericalGrid& grid, int cell_px) {
   const GridGeometry& geometry = grid.geometry();
   double nearest_m = std::numeric_limits<double>::infinity();
   for (int row = 0; row < geometry.rows; ++row) {
     for (int col = 0; col < geometry.cols; ++col) {
-      nearest_m = std::min(nearest_m, grid.depth_m({row, col}, rule).value_or(nearest_m));
+      nearest_m = std::min(nearest_m, grid.depth_m({row, col}).value_or(nearest_m));
     }
   }
   cv::Mat3b cells(geometry.rows, geometry.cols, kNoMeasurement);
   for (int row = 0; row < geometry.rows; ++row) {
     for (int col = 0; col < geometry.cols; ++col) {
-      if (const auto depth_m = grid.depth_m({row, col}, rule)) {
+      if (const auto depth_m = grid.depth_m({row, col})) {
         cells(row, geometry.cols - 1 - col) = scale_colour(nearest_m / *depth_m);
       }
     }

@@ -20,7 +20,7 @@ namespace skyhalo {
 
 /// A grid unrolled as it is seen from the body: left is left, up is up; bright is near (on a scale
 /// of 1/range), dark grey is no measurement. `cell_px` is the side of a cell in the picture.
-[[nodiscard]] cv::Mat3b grid_picture(const SphericalGrid& grid, const DepthRule& rule, int cell_px);
+[[nodiscard]] cv::Mat3b grid_picture(const SphericalGrid& grid, int cell_px);
 
 /// The layer of a map at height z (m), seen from above with x to the right and y up: probability
 /// from white (free) to black (occupied), unknown in a pale blue. `cell_px` is the side of a cell.

@@ -19,10 +19,6 @@ bool positive(double value) noexcept {
   return value > 0.0 && std::isfinite(value);
 }
 
-bool not_negative(double value) noexcept {
-  return value >= 0.0 && std::isfinite(value);
-}
-
 }  // namespace
 
 void check(const DetectorConfig& config) {
@@ -31,9 +27,8 @@ void check(const DetectorConfig& config) {
           "a whole number in 1...16");
   require(config.matching.rcrop_px >= 0, "matching.rcrop_px", "a number of pixels >= 0");
   check(config.matching.matcher);
-  require(
-      not_negative(config.sphere.sigma_threshold_m), "sphere.sigma_threshold_m", "a length >= 0 m");
-  require(not_negative(config.sphere.sigma_factor), "sphere.sigma_factor", "a number >= 0");
+  check(config.sphere.depth, "sphere");
+  check(config.sphere.seen, "sphere");
   require(positive(config.sphere.max_range_m), "sphere.max_range_m", "a length above 0 m");
   require(positive(config.map.voxel_m), "map.voxel_m", "a length above 0 m");
   require(config.map.log_odds_limit >= kLogOddsPerUnit && config.map.log_odds_limit <= 32.0,
@@ -41,6 +36,7 @@ void check(const DetectorConfig& config) {
           "a number in 0.001...32");
   check(config.sensor_model);
   (void)make_grid_geometry(config.sphere.bounds);
+  (void)whole_sphere(config.sphere.bounds.step_rad);
 }
 
 }  // namespace skyhalo

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <numbers>
 #include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
+#include "skyhalo/sphere/depth_rule.hpp"
 #include "skyhalo/sphere/grid_geometry.hpp"
+#include "skyhalo/sphere/pair_view.hpp"
 #include "skyhalo/stereo/matcher_config.hpp"
 
 namespace skyhalo {
@@ -19,17 +22,17 @@ struct MatchingConfig {
   MatcherConfig matcher;
 };
 
-/// From disparities to nearest distances by direction (thesis 5.3).
+/// From disparities to nearest distances by direction (thesis 5.3, 5.4).
 struct SphereConfig {
-  /// The thesis's front grid, at our step.
-  GridBounds bounds{.theta_min_rad = rad_from_deg(40.0),
-                    .theta_max_rad = rad_from_deg(140.0),
-                    .phi_min_rad = rad_from_deg(-50.0),
-                    .phi_max_rad = rad_from_deg(50.0),
+  /// All directions: each pair's grid is the part of them that the pair sees.
+  GridBounds bounds{.theta_min_rad = 0.0,
+                    .theta_max_rad = std::numbers::pi,
+                    .phi_min_rad = -std::numbers::pi,
+                    .phi_max_rad = std::numbers::pi,
                     .step_rad = rad_from_deg(1.0)};
-  double sigma_threshold_m = 0.5;  ///< sigma_th of eq. 5.4, >= 0
-  double sigma_factor = 3.0;       ///< the 3 of eq. 5.4, >= 0
-  double max_range_m = 33.0;       ///< points farther from the camera are left out, > 0
+  DepthRule depth;            ///< but for its `min_range_m`, which is the pair's
+  SeenRule seen;              ///< `near_m` at least: pairs that measure nothing there begin later
+  double max_range_m = 33.0;  ///< points farther from the camera are left out, > 0
 };
 
 /// The occupancy map (thesis 6 and 7.1).

@@ -1,11 +1,11 @@
 #include "skyhalo/pipeline/obstacle_detector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/for_each_index.hpp"
-#include "skyhalo/pipeline/grid_rays.hpp"
 #include "skyhalo/rectify/rectifier.hpp"
 #include "skyhalo/stereo/disparity_mask.hpp"
 #include "skyhalo/stereo/matcher.hpp"
@@ -32,32 +32,79 @@ MatchingConfig settings_of(const StereoPair& pair, MatchingConfig matching) {
   return matching;
 }
 
+/// Grids leave room for things as near to a camera as this (m).
+constexpr double kNearestThingM = 0.5;
+
+bool has_images(const StereoImages& images) noexcept {
+  return !images.left.empty() || !images.right.empty();
+}
+
+/// The pair at the matched resolution.
+PairGeometry geometry_of(const StereoPair& pair,
+                         const MatchingConfig& matching,
+                         const SphereConfig& sphere) {
+  return {downscaled(pair.model, matching.downscale),
+          pair.T_body_camera,
+          pair.min_range_m.value_or(0.0),
+          pair.max_range_m.value_or(sphere.max_range_m)};
+}
+
+/// How many pixels of the middle of the image look into one cell.
+double pixels_per_cell(const PairModel& model, const cv::Size& size_px, double step_rad) {
+  const double u = 0.5 * size_px.width;
+  const double v = 0.5 * size_px.height;
+  const Eigen::Vector3d ray = ray_of(model, u, v);
+  const double across_rad = ray.cross(ray_of(model, u + 1.0, v)).norm();
+  const double down_rad = ray.cross(ray_of(model, u, v + 1.0)).norm();
+  return step_rad * step_rad / (across_rad * down_rad);
+}
+
+/// The configuration's rule, with the floor of the pair. Where a cell has few pixels, fewer of them
+/// can bear out a depth.
+DepthRule depth_rule_of(const StereoPair& pair,
+                        const MatchingConfig& matching,
+                        const SphereConfig& sphere) {
+  const PairModel model = downscaled(pair.model, matching.downscale);
+  const cv::Size size_px = pair.image_size_px / matching.downscale;
+  const double quarter = 0.25 * pixels_per_cell(model, size_px, sphere.bounds.step_rad);
+  DepthRule rule = sphere.depth;
+  rule.min_range_m = min_range_m(model, size_px.width, matching.matcher.max_disparity_px);
+  rule.nearest_count =
+      std::clamp(static_cast<int>(std::min<double>(quarter, kMaxNearest)), 1, rule.nearest_count);
+  return rule;
+}
+
+/// Places that the pair cannot measure yet, wherever in its view, are not asked for.
+SeenRule seen_rule_of(const PairGeometry& pair, const DepthRule& depth, SeenRule rule) {
+  const double nearest_m = std::max(pair.min_range_m, depth.min_range_m);
+  rule.near_m = std::max(rule.near_m, nearest_m + pair.T_body_camera.translation().norm());
+  return rule;
+}
+
 }  // namespace
 
 /// The engines and memory of one pair.
 struct ObstacleDetector::PairEngine {
   PairEngine(const StereoPair& pair, const DetectorConfig& config)
+      : PairEngine(pair, config, settings_of(pair, config.matching)) {}
+
+  PairEngine(const StereoPair& pair, const DetectorConfig& config, const MatchingConfig& settings)
       : description(pair),
-        matching(settings_of(pair, config.matching)),
+        matching(settings),
         rectifier(pair, matching.downscale),
         matcher(matching.matcher),
-        geometry{downscaled(pair.model, matching.downscale),
-                 pair.T_body_camera,
-                 pair.min_range_m.value_or(0.0),
-                 pair.max_range_m.value_or(config.sphere.max_range_m)},
+        geometry(geometry_of(pair, matching, config.sphere)),
+        matched_size_px(pair.image_size_px / matching.downscale),
         seen{.disparity = {},
-             .grid = SphericalGrid(make_grid_geometry(config.sphere.bounds)),
-             .depth = {config.sphere.sigma_threshold_m,
-                       config.sphere.sigma_factor,
-                       min_range_m(geometry.model,
-                                   pair.image_size_px.width / matching.downscale,
-                                   matching.matcher.max_disparity_px)},
+             .grid = SphericalGrid(
+                 grid_of_view(geometry, matched_size_px, config.sphere.bounds, kNearestThingM),
+                 depth_rule_of(pair, matching, config.sphere)),
              .pixels = {}},
-        rays(seen.grid.geometry()),
-        range_model{geometry.model,
-                    config.sensor_model,
-                    seen.depth,
-                    static_cast<int>(std::lround(config.map.log_odds_limit / kLogOddsPerUnit))} {}
+        accumulator(geometry,
+                    matched_size_px,
+                    seen.grid.geometry(),
+                    seen.grid.rule(),
+                    seen_rule_of(geometry, seen.grid.rule(), config.sphere.seen)) {}
 
   void rectify(const StereoImages& images) { rectified = &rectifier.rectify(images); }
 
@@ -69,13 +116,13 @@ struct ObstacleDetector::PairEngine {
     discard_rectangles(seen.disparity, matching.masks_px, matching.downscale);
   }
 
-  void fill_grid() noexcept {
+  void fill_grid() {
     seen.grid.clear();
-    seen.pixels = accumulate(seen.disparity, geometry, seen.grid);
+    seen.pixels = accumulator.accumulate(seen.disparity, seen.grid);
   }
 
-  void update(DenseMap& map, const Pose& T_map_body) noexcept {
-    seen.rays = rays.integrate(seen.grid, range_model, T_map_body, map);
+  [[nodiscard]] PairGrid delivered(Timestamp stamp) const noexcept {
+    return {seen.delivered ? &seen.grid : nullptr, stamp};
   }
 
   StereoPair description;
@@ -84,22 +131,29 @@ struct ObstacleDetector::PairEngine {
   const RectifiedPair* rectified = nullptr;  // inside `rectifier`, of the current frame
   Matcher matcher;
   PairGeometry geometry;
+  cv::Size matched_size_px;
   PairPerception seen;
-  GridRays rays;
-  RangeModel range_model;
+  Accumulator accumulator;
 };
 
 ObstacleDetector::ObstacleDetector(const StereoRig& rig,
                                    const DetectorConfig& config,
                                    const VoxelGrid& map_grid)
-    : map_((check(config), map_grid)) {
+    : halo_((check(config), config.sphere.bounds.step_rad)),
+      rays_(halo_.geometry()),
+      map_(map_grid) {
   if (rig.pairs.empty()) {
     throw Error(ErrorKind::kInput, "rig: expected at least one stereo pair");
   }
   pairs_.reserve(rig.pairs.size());
   for (const StereoPair& pair : rig.pairs) {
     pairs_.emplace_back(pair, config);
+    range_models_.push_back(
+        {pairs_.back().geometry.model,
+         config.sensor_model,
+         static_cast<int>(std::lround(config.map.log_odds_limit / kLogOddsPerUnit))});
   }
+  grids_.resize(pairs_.size());
 }
 
 ObstacleDetector::ObstacleDetector(ObstacleDetector&&) noexcept = default;
@@ -109,17 +163,26 @@ ObstacleDetector::~ObstacleDetector() = default;
 void ObstacleDetector::process(const FrameSet& frames,
                                const Pose& T_map_body,
                                StageObserver* observer) {
+  halo_.stitch({});  // nothing of an earlier frame stays, whatever happens in this one
   check_frames(frames);
   for_each_index(pairs_.size(), [&](std::size_t i) {
     PairEngine& pair = pairs_[i];
-    run_stage(observer, Stage::kRectify, i, [&] { pair.rectify(frames.pairs[i]); });
-    run_stage(observer, Stage::kMatch, i, [&] { pair.match(); });       // thesis 5.1, 5.2
-    run_stage(observer, Stage::kSphere, i, [&] { pair.fill_grid(); });  // thesis 5.3
+    pair.seen.delivered = has_images(frames.pairs[i]);
+    if (pair.seen.delivered) {
+      run_stage(observer, Stage::kRectify, i, [&] { pair.rectify(frames.pairs[i]); });
+      run_stage(observer, Stage::kMatch, i, [&] { pair.match(); });       // thesis 5.1, 5.2
+      run_stage(observer, Stage::kSphere, i, [&] { pair.fill_grid(); });  // thesis 5.3
+    }
   });
-  // One pair after the other, so that the map gets the same bits every time.
-  for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    run_stage(observer, Stage::kMap, i, [&] { pairs_[i].update(map_, T_map_body); });  // 6.2, 7.1
-  }
+  run_stage(observer, Stage::kStitch, 0, [&] {  // thesis 5.4
+    std::transform(pairs_.begin(), pairs_.end(), grids_.begin(), [&](const PairEngine& pair) {
+      return pair.delivered(frames.stamp);
+    });
+    halo_.stitch(grids_);
+  });
+  run_stage(observer, Stage::kMap, 0, [&] {  // thesis 6.2, 7.1
+    ray_count_ = rays_.integrate(halo_, range_models_, T_map_body, map_);
+  });
 }
 
 const PairPerception& ObstacleDetector::perception(std::size_t pair) const {
@@ -134,8 +197,9 @@ void ObstacleDetector::check_frames(const FrameSet& frames) const {
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const StereoPair& pair = pairs_[i].description;
-    if (frames.pairs[i].left.size() != left_image_size_px(pair) ||
-        frames.pairs[i].right.size() != right_image_size_px(pair)) {
+    if (has_images(frames.pairs[i]) &&
+        (frames.pairs[i].left.size() != left_image_size_px(pair) ||
+         frames.pairs[i].right.size() != right_image_size_px(pair))) {
       throw Error(ErrorKind::kInput,
                   "pair " + pair.name + ": images of another size than the rig's");
     }

@@ -5,7 +5,7 @@
 namespace skyhalo {
 
 /// The stages of one frame, in the order the data takes.
-enum class Stage { kRectify, kMatch, kSphere, kMap };
+enum class Stage { kRectify, kMatch, kSphere, kStitch, kMap };
 
 /// The stage's name in reports.
 [[nodiscard]] constexpr std::string_view name_of(Stage stage) noexcept {
@@ -16,6 +16,8 @@ enum class Stage { kRectify, kMatch, kSphere, kMap };
       return "match";
     case Stage::kSphere:
       return "sphere";
+    case Stage::kStitch:
+      return "stitch";
     case Stage::kMap:
       return "map";
   }
@@ -24,7 +26,8 @@ enum class Stage { kRectify, kMatch, kSphere, kMap };
 
 /// Is told when a stage begins and ends, so that an application can hold its own clock to it; the
 /// library has none. Pairs run in parallel: calls come from several threads, each stage of one pair
-/// begins and ends on the same thread. A stage that throws has no end.
+/// begins and ends on the same thread. Stitching and the map take all pairs together, and count as
+/// pair 0. A stage that throws has no end.
 class StageObserver {
  public:
   StageObserver() = default;

@@ -40,10 +40,13 @@ GridGeometry make_grid_geometry(const GridBounds& bounds) {
   require(bounds.theta_max_rad <= kPi + kSlack && bounds.theta_max_rad > bounds.theta_min_rad,
           "theta_max_deg",
           "an angle above theta_min and at most 180 deg");
-  require(bounds.phi_min_rad >= -kPi - kSlack, "phi_min_deg", "an angle of at least -180 deg");
-  require(bounds.phi_max_rad <= kPi + kSlack && bounds.phi_max_rad > bounds.phi_min_rad,
+  require(bounds.phi_min_rad >= -kPi - kSlack && bounds.phi_min_rad < kPi - kSlack,
+          "phi_min_deg",
+          "an angle of at least -180 and below 180 deg");
+  require(bounds.phi_max_rad <= bounds.phi_min_rad + 2.0 * kPi + kSlack &&
+              bounds.phi_max_rad > bounds.phi_min_rad,
           "phi_max_deg",
-          "an angle above phi_min and at most 180 deg");
+          "an angle above phi_min and at most a whole turn from it");
   const double rows = steps_to(bounds.theta_max_rad, step, "theta_max_deg") -
                       steps_to(bounds.theta_min_rad, step, "theta_min_deg");
   const double cols = steps_to(bounds.phi_max_rad, step, "phi_max_deg") -
@@ -55,6 +58,15 @@ GridGeometry make_grid_geometry(const GridBounds& bounds) {
           .phi_min_rad = bounds.phi_min_rad,
           .phi_step_rad = step,
           .cols = static_cast<int>(cols)};
+}
+
+GridGeometry whole_sphere(double step_rad) {
+  constexpr double kPi = std::numbers::pi;
+  return make_grid_geometry({.theta_min_rad = 0.0,
+                             .theta_max_rad = kPi,
+                             .phi_min_rad = -kPi,
+                             .phi_max_rad = kPi,
+                             .step_rad = step_rad});
 }
 
 }  // namespace skyhalo

@@ -19,7 +19,7 @@ struct GridCell {
 
 /// How the sphere round the body is divided (METHOD 3): `[theta_min, theta_max) x [phi_min,
 /// phi_max)` in equal steps. Bounds are multiples of the steps, so that all grids of one body are
-/// aligned.
+/// aligned. Azimuths wrap: a grid may cross the half-plane straight behind.
 struct GridGeometry {
   double theta_min_rad = 0.0;  ///< first polar angle, >= 0 (0 is up)
   double theta_step_rad = 0.0;
@@ -28,20 +28,35 @@ struct GridGeometry {
   double phi_step_rad = 0.0;
   int cols = 0;
 
+  friend bool operator==(const GridGeometry&, const GridGeometry&) = default;
+
   [[nodiscard]] int cell_count() const noexcept { return rows * cols; }
 
   /// Position of a cell in memory, row-major.
   [[nodiscard]] int offset_of(GridCell cell) const noexcept { return cell.row * cols + cell.col; }
 
+  /// True when the columns go all the way round.
+  [[nodiscard]] bool is_whole_circle() const noexcept {
+    return std::abs(cols * phi_step_rad - 2.0 * std::numbers::pi) < 0.5 * phi_step_rad;
+  }
+
+  /// True when the last row ends straight down.
+  [[nodiscard]] bool reaches_down() const noexcept {
+    return std::abs(theta_min_rad + rows * theta_step_rad - std::numbers::pi) <
+           0.5 * theta_step_rad;
+  }
+
   /// The cell that a direction falls into, theta in [0, pi] and phi in [-pi, pi]; none outside the
-  /// bounds or for NaN. Straight backwards (phi = pi) is the first column of a whole circle,
-  /// straight down (theta = pi) the last row of a grid that ends there.
+  /// bounds or for NaN. Straight backwards (phi = pi) is phi = -pi, straight down (theta = pi) the
+  /// last row of a grid that ends there.
   [[nodiscard]] std::optional<GridCell> cell_of(double theta_rad, double phi_rad) const noexcept {
-    constexpr double kPi = std::numbers::pi;
-    const double wrapped_rad = phi_rad < kPi ? phi_rad : phi_rad - 2.0 * kPi;
+    const double from_first_rad = phi_rad - phi_min_rad;
+    const double turned_rad =
+        from_first_rad < 0.0 ? from_first_rad + 2.0 * std::numbers::pi : from_first_rad;
     double row = std::floor((theta_rad - theta_min_rad) / theta_step_rad);
-    const double col = std::floor((wrapped_rad - phi_min_rad) / phi_step_rad);
-    row -= theta_rad >= kPi && row == rows ? 1.0 : 0.0;
+    double col = std::floor(turned_rad / phi_step_rad);
+    row -= row == rows && reaches_down() ? 1.0 : 0.0;
+    col -= col == cols && is_whole_circle() ? col : 0.0;
     if (!(row >= 0.0 && row < rows && col >= 0.0 && col < cols)) {
       return std::nullopt;
     }
@@ -60,13 +75,18 @@ struct GridBounds {
   double theta_min_rad = 0.0;
   double theta_max_rad = 0.0;
   double phi_min_rad = 0.0;
-  double phi_max_rad = 0.0;
-  double step_rad = 0.0;  ///< of both angles
+  double phi_max_rad = 0.0;  ///< above pi where the grid crosses the half-plane behind
+  double step_rad = 0.0;     ///< of both angles
 };
 
 /// The grid with these bounds. Throws `Error` (input) naming what is wrong unless the step is above
-/// 0, `0 <= theta_min < theta_max <= pi`, `-pi <= phi_min < phi_max <= pi`, all bounds are
-/// multiples of the step (within 1e-6 of a step) and there are at most 10^7 cells.
+/// 0, `0 <= theta_min < theta_max <= pi`, `-pi <= phi_min < pi`, `phi_min < phi_max <= phi_min + 2
+/// pi`, all bounds are multiples of the step (within 1e-6 of a step) and there are at most 10^7
+/// cells.
 [[nodiscard]] GridGeometry make_grid_geometry(const GridBounds& bounds);
+
+/// The grid of all directions, from straight up and straight backwards on. Throws `Error` (input)
+/// unless the step divides a half turn and leaves at most 10^7 cells.
+[[nodiscard]] GridGeometry whole_sphere(double step_rad);
 
 }  // namespace skyhalo

@@ -3,13 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "skyhalo/geometry/spherical.hpp"
+
 namespace skyhalo {
 
-SphericalGrid::SphericalGrid(const GridGeometry& geometry)
-    : geometry_(geometry), cells_(static_cast<std::size_t>(geometry.cell_count())) {}
+SphericalGrid::SphericalGrid(const GridGeometry& geometry, const DepthRule& rule)
+    : geometry_(geometry),
+      rule_((check(rule, "sphere"), rule)),
+      points_(geometry.cell_count(), rule),
+      looks_(static_cast<std::size_t>(geometry.cell_count())),
+      depths_m_(looks_.size(), std::numeric_limits<float>::quiet_NaN()),
+      free_to_m_(looks_.size(), 0.0F) {}
 
 void SphericalGrid::clear() noexcept {
-  std::fill(cells_.begin(), cells_.end(), Sums{});
+  points_.clear();
+  std::fill(looks_.begin(), looks_.end(), CellLooks{});
+  std::fill(depths_m_.begin(), depths_m_.end(), std::numeric_limits<float>::quiet_NaN());
+  std::fill(free_to_m_.begin(), free_to_m_.end(), 0.0F);
 }
 
 void SphericalGrid::add(const Eigen::Vector3d& p_body_m) noexcept {
@@ -18,37 +28,47 @@ void SphericalGrid::add(const Eigen::Vector3d& p_body_m) noexcept {
   if (!cell || !(point.rho_m > 0.0) || !std::isfinite(point.rho_m)) {
     return;
   }
-  Sums& sums = cells_[static_cast<std::size_t>(geometry_.offset_of(*cell))];
-  sums.min_m = sums.count == 0 ? point.rho_m : std::min(sums.min_m, point.rho_m);
-  ++sums.count;
-  sums.sum_m += point.rho_m;
-  sums.sum_m2 += point.rho_m * point.rho_m;
+  points_.add(geometry_.offset_of(*cell), point.rho_m);
+}
+
+void SphericalGrid::merge(const CellPoints& points,
+                          std::span<const CellLooks> looks,
+                          CellSpan cells) noexcept {
+  points_.merge(points, cells);
+  for (auto cell = static_cast<std::size_t>(cells.begin);
+       cell < static_cast<std::size_t>(cells.end);
+       ++cell) {
+    looks_[cell].valid += looks[cell].valid;
+    looks_[cell].invalid += looks[cell].invalid;
+    looks_[cell].nearest_m = std::min(looks_[cell].nearest_m, looks[cell].nearest_m);
+  }
+}
+
+void SphericalGrid::settle(PairView& view) noexcept {
+  view.find_free(looks_, free_to_m_);
+  for (std::size_t cell = 0; cell < depths_m_.size(); ++cell) {
+    depths_m_[cell] = static_cast<float>(points_.depth_m(static_cast<int>(cell)));
+    if (depths_m_[cell] < free_to_m_[cell]) {
+      free_to_m_[cell] = depths_m_[cell];
+    }
+  }
 }
 
 std::optional<CellStatistics> SphericalGrid::statistics(GridCell cell) const noexcept {
-  const Sums& sums = cells_[static_cast<std::size_t>(geometry_.offset_of(cell))];
-  if (sums.count == 0) {
-    return std::nullopt;
-  }
-  const double mean_m = sums.sum_m / sums.count;
-  // Rounding can leave a variance of equal ranges slightly below zero.
-  const double variance_m2 = std::max(0.0, sums.sum_m2 / sums.count - mean_m * mean_m);
-  return CellStatistics{sums.count, mean_m, std::sqrt(variance_m2), sums.min_m};
+  return points_.statistics(geometry_.offset_of(cell));
 }
 
-std::optional<double> SphericalGrid::depth_m(GridCell cell, const DepthRule& rule) const noexcept {
-  const std::optional<CellStatistics> s = statistics(cell);
-  if (!s) {
-    return std::nullopt;
-  }
-  const bool one_surface = s->sigma_m < rule.sigma_threshold_m;
-  const double nearest_m = one_surface ? s->mean_m - rule.sigma_factor * s->sigma_m : s->min_m;
-  return std::max(nearest_m, rule.min_range_m);
+std::optional<double> SphericalGrid::depth_m(GridCell cell) const noexcept {
+  const double depth_m = points_.depth_m(geometry_.offset_of(cell));
+  return std::isnan(depth_m) ? std::nullopt : std::optional(depth_m);
 }
 
 int SphericalGrid::occupied_cell_count() const noexcept {
-  return static_cast<int>(
-      std::count_if(cells_.begin(), cells_.end(), [](const Sums& s) { return s.count > 0; }));
+  int count = 0;
+  for (int cell = 0; cell < geometry_.cell_count(); ++cell) {
+    count += points_.count(cell) > 0 ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace skyhalo

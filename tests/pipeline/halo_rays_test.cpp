@@ -1,32 +1,38 @@
-#include "skyhalo/pipeline/grid_rays.hpp"
+#include "skyhalo/pipeline/halo_rays.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "reference/naive_occupancy_map.hpp"
 #include "skyhalo/geometry/angle.hpp"
+#include "skyhalo/geometry/spherical.hpp"
 
 namespace skyhalo {
 namespace {
 
-/// Steps of 10 deg, theta 40...140, phi -50...50.
-GridGeometry coarse_geometry() {
-  return make_grid_geometry({.theta_min_rad = rad_from_deg(40.0),
-                             .theta_max_rad = rad_from_deg(140.0),
-                             .phi_min_rad = rad_from_deg(-50.0),
-                             .phi_max_rad = rad_from_deg(50.0),
-                             .step_rad = rad_from_deg(10.0)});
+/// Steps of 10 deg: theta 40 is row 4, phi -50 column 13.
+Halo coarse_halo() {
+  return Halo(rad_from_deg(10.0));
 }
 
-RangeModel range_model() {
+/// Puts a thing into the cell that holds a point (m, body).
+void put(Halo& halo, const Eigen::Vector3d& p_body_m, std::uint8_t source = 0) {
+  const SphericalPoint point = to_spherical(p_body_m);
+  const auto cell = halo.geometry().cell_of(point.theta_rad, point.phi_rad);
+  const auto range_m = static_cast<float>(point.rho_m);
+  halo.set(cell.value(), range_m, range_m, source);
+}
+
+std::vector<RangeModel> range_models() {
   RangeModel model;
   model.pair = PinholePair{.focal_px = 400.0, .baseline_m = 0.5};
-  model.depth = {.sigma_threshold_m = 0.5, .sigma_factor = 3.0, .min_range_m = 0.5};
-  return model;
+  return {model};
 }
 
 DenseMap box_map() {
@@ -39,72 +45,73 @@ int count_known(const DenseMap& map) {
       map.cells().begin(), map.cells().end(), [](LogOdds cell) { return cell != kUnknown; }));
 }
 
-TEST(GridRaysTest, AnEmptyGridSendsNoRays) {
-  const SphericalGrid grid(coarse_geometry());
+TEST(HaloRaysTest, AnEmptyHaloSendsNoRays) {
+  const Halo halo = coarse_halo();
   DenseMap map = box_map();
-  EXPECT_EQ(GridRays(coarse_geometry()).integrate(grid, range_model(), Pose::Identity(), map), 0);
+  EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, range_models(), Pose::Identity(), map), 0);
   EXPECT_EQ(count_known(map), 0);
 }
 
-TEST(GridRaysTest, ACellSendsItsRayThroughItsCentre) {
-  SphericalGrid grid(coarse_geometry());
+TEST(HaloRaysTest, ACellSendsItsRayThroughItsCentre) {
+  Halo halo = coarse_halo();
   // Off the centre of cell (5, 5), whose middle is theta 95, phi 5 deg.
-  grid.add(6.0 * direction(rad_from_deg(91.0), rad_from_deg(9.0)));
+  put(halo, 6.0 * direction(rad_from_deg(91.0), rad_from_deg(9.0)));
   DenseMap map = box_map();
-  EXPECT_EQ(GridRays(coarse_geometry()).integrate(grid, range_model(), Pose::Identity(), map), 1);
+  EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, range_models(), Pose::Identity(), map), 1);
   const Eigen::Vector3d centre = direction(rad_from_deg(95.0), rad_from_deg(5.0));
   EXPECT_GT(map.at_point(6.0 * centre), 1000);
   EXPECT_LT(map.at_point(3.0 * centre), 0);
   EXPECT_EQ(map.at_point(8.0 * direction(rad_from_deg(91.0), rad_from_deg(9.0))), kUnknown);
 }
 
-TEST(GridRaysTest, ThePoseTakesTheRayToTheMap) {
-  SphericalGrid grid(coarse_geometry());
-  grid.add(4.0 * direction(rad_from_deg(95.0), rad_from_deg(5.0)));
+TEST(HaloRaysTest, ThePoseTakesTheRayToTheMap) {
+  Halo halo = coarse_halo();
+  put(halo, 4.0 * direction(rad_from_deg(95.0), rad_from_deg(5.0)));
   // The vehicle stands at (1, -3, 2) and looks along the map's y.
   const Pose T_map_body =
       make_pose(Eigen::AngleAxisd(rad_from_deg(90.0), Eigen::Vector3d::UnitZ()).toRotationMatrix(),
                 {1.0, -3.0, 2.0});
   DenseMap map = box_map();
-  EXPECT_EQ(GridRays(coarse_geometry()).integrate(grid, range_model(), T_map_body, map), 1);
+  EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, range_models(), T_map_body, map), 1);
   const Eigen::Vector3d unit = direction(rad_from_deg(95.0), rad_from_deg(95.0));
   EXPECT_GT(map.at_point(Eigen::Vector3d(1.0, -3.0, 2.0) + 4.0 * unit), 1000);
   EXPECT_LT(map.at_point(Eigen::Vector3d(1.0, -3.0, 2.0) + 2.0 * unit), 0);
 }
 
-TEST(GridRaysTest, TheDepthRuleOfTheModelApplies) {
-  SphericalGrid grid(coarse_geometry());
+TEST(HaloRaysTest, EachDepthIsJudgedByThePairItComesFrom) {
   const Eigen::Vector3d centre = direction(rad_from_deg(95.0), rad_from_deg(5.0));
-  grid.add(2.0 * centre);
-  DenseMap map = box_map();
-  RangeModel model = range_model();
-  model.depth.min_range_m = 6.0;  // what is measured nearer is put there
-  EXPECT_EQ(GridRays(coarse_geometry()).integrate(grid, model, Pose::Identity(), map), 1);
-  EXPECT_LT(map.at_point(2.0 * centre), 0);
-  EXPECT_GT(map.at_point(6.0 * centre), 1000);
+  std::vector<RangeModel> models = range_models();
+  models.push_back(models.front());
+  models.back().limit_units = 300;
+  for (const std::uint8_t source : {std::uint8_t{0}, std::uint8_t{1}}) {
+    Halo halo = coarse_halo();
+    put(halo, 4.0 * centre, source);
+    DenseMap map = box_map();
+    EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, models, Pose::Identity(), map), 1);
+    EXPECT_EQ(map.at_point(4.0 * centre) > 1000, source == 0);
+    EXPECT_EQ(map.at_point(4.0 * centre) == 300, source == 1);
+  }
 }
 
-TEST(GridRaysTest, TheLimitOfTheModelApplies) {
-  SphericalGrid grid(coarse_geometry());
-  const Eigen::Vector3d centre = direction(rad_from_deg(95.0), rad_from_deg(5.0));
-  grid.add(4.0 * centre);
+TEST(HaloRaysTest, DepthsOfNoPairAreLeftOut) {
+  Halo halo = coarse_halo();
+  put(halo, {4.0, 0.0, 0.0}, 1);
+  put(halo, {0.0, 4.0, 0.0}, Halo::kNoSource);
   DenseMap map = box_map();
-  RangeModel model = range_model();
-  model.limit_units = 300;
-  (void)GridRays(coarse_geometry()).integrate(grid, model, Pose::Identity(), map);
-  EXPECT_EQ(map.at_point(4.0 * centre), 300);
+  EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, range_models(), Pose::Identity(), map), 0);
+  EXPECT_EQ(count_known(map), 0);
 }
 
-TEST(GridRaysTest, EveryCellWithADepthSendsOneRay) {
-  SphericalGrid grid(coarse_geometry());
-  for (int row = 0; row < 10; ++row) {
-    for (int col = 0; col < 10; col += 2) {
-      grid.add(3.0 * grid.geometry().center_direction({row, col}));
-      grid.add(3.1 * grid.geometry().center_direction({row, col}));
+TEST(HaloRaysTest, EveryCellWithADepthSendsOneRay) {
+  Halo halo = coarse_halo();
+  for (int row = 4; row < 14; ++row) {
+    for (int col = 13; col < 23; col += 2) {
+      put(halo, 3.0 * halo.geometry().center_direction({row, col}));
     }
   }
+  halo.set({0, 0}, std::numeric_limits<float>::quiet_NaN(), 20.0F);  // free, but no depth
   DenseMap map = box_map();
-  EXPECT_EQ(GridRays(coarse_geometry()).integrate(grid, range_model(), Pose::Identity(), map), 50);
+  EXPECT_EQ(HaloRays(halo.geometry()).integrate(halo, range_models(), Pose::Identity(), map), 50);
 }
 
 Pose random_pose(std::mt19937& random) {
@@ -146,25 +153,24 @@ int count_different(const DenseMap& map, const reference::NaiveMap& expected) {
   return different;
 }
 
-TEST(GridRaysReference, AgreesWithNaiveRaysFromEveryCell) {
+TEST(HaloRaysReference, AgreesWithNaiveRaysFromEveryCell) {
   std::mt19937 random(71);
   std::uniform_real_distribution<double> range_m(0.6, 12.0);
   for (int round = 0; round < 8; ++round) {
-    SphericalGrid grid(coarse_geometry());
+    Halo halo = coarse_halo();
     const Pose T_map_body = random_pose(random);
     DenseMap map = box_map();
     reference::NaiveMap expected =
         reference::naive_empty_map({{-8.0, -8.0, -8.0}, 0.5, {32, 32, 32}});
     for (int i = 0; i < 100; i += 3) {
-      const GridCell cell{i / 10, i % 10};
-      const double z_m = range_m(random);
-      grid.add(z_m * grid.geometry().center_direction(cell));
-      // One point a cell: its depth is the point's range.
+      const GridCell cell{4 + i / 10, 13 + i % 10};
+      const auto z_m = static_cast<float>(range_m(random));
+      halo.set(cell, z_m, z_m);
       reference::naive_integrate(
-          expected, naive_ray(grid.geometry(), cell, z_m, T_map_body), {}, 5.0);
+          expected, naive_ray(halo.geometry(), cell, z_m, T_map_body), {}, 5.0);
     }
-    const GridRays rays(coarse_geometry());
-    EXPECT_EQ(rays.integrate(grid, range_model(), T_map_body, map), 34);
+    const HaloRays rays(halo.geometry());
+    EXPECT_EQ(rays.integrate(halo, range_models(), T_map_body, map), 34);
     EXPECT_EQ(count_different(map, expected), 0) << "round " << round;
   }
 }
