@@ -75,8 +75,14 @@ TEST(ConfigTest, RefusesADetectorOutsideItsDomain) {
       {"matching.downscale", [](Config& c) { c.detector.matching.downscale = 0; }},
       {"matching.downscale", [](Config& c) { c.detector.matching.downscale = 17; }},
       {"matching.rcrop_px", [](Config& c) { c.detector.matching.rcrop_px = -1; }},
-      {"sphere.sigma_threshold_m", [](Config& c) { c.detector.sphere.sigma_threshold_m = -0.1; }},
-      {"sphere.sigma_factor", [](Config& c) { c.detector.sphere.sigma_factor = kNan; }},
+      {"sphere.sigma_threshold_m",
+       [](Config& c) { c.detector.sphere.depth.sigma_threshold_m = -0.1; }},
+      {"sphere.sigma_factor", [](Config& c) { c.detector.sphere.depth.sigma_factor = kNan; }},
+      {"sphere.nearest_count", [](Config& c) { c.detector.sphere.depth.nearest_count = 9; }},
+      {"sphere.quantile", [](Config& c) { c.detector.sphere.depth.quantile = 1.5; }},
+      {"safety.radius_m", [](Config& c) { c.safety.radius_m = 0.0; }},
+      {"safety.delay_s", [](Config& c) { c.safety.delay_s = kNan; }},
+      {"safety.look_angle_deg", [](Config& c) { c.safety.look_angle_rad = 1.6; }},
       {"sphere.max_range_m", [](Config& c) { c.detector.sphere.max_range_m = 0.0; }},
       {"sensor_model.k", [](Config& c) { c.detector.sensor_model.k = 1.0; }},
       {"sensor_model.p_free", [](Config& c) { c.detector.sensor_model.p_free = 0.6; }},
@@ -106,10 +112,10 @@ TEST(ConfigTest, RefusesAMatcherOutsideItsDomain) {
 TEST(ConfigTest, RefusesAGridThatDoesNotFit) {
   expect_refused({
       {"step", [](Config& c) { c.detector.sphere.bounds.step_rad = 0.0; }},
-      {"theta", [](Config& c) { c.detector.sphere.bounds.theta_min_rad = rad_from_deg(150.0); }},
+      {"theta", [](Config& c) { c.detector.sphere.bounds.theta_min_rad = rad_from_deg(180.0); }},
       {"phi", [](Config& c) { c.detector.sphere.bounds.phi_max_rad = rad_from_deg(181.0); }},
-      // 50 deg is no multiple of 3 deg.
-      {"step", [](Config& c) { c.detector.sphere.bounds.step_rad = rad_from_deg(3.0); }},
+      // 180 deg is no multiple of 7 deg.
+      {"step", [](Config& c) { c.detector.sphere.bounds.step_rad = rad_from_deg(7.0); }},
   });
 }
 

@@ -23,19 +23,24 @@ TEST(DumpTest, TheDefaultFileIsTheDefaults) {
   EXPECT_EQ(to_yaml(Config{}), read_bytes(kConfigFolder / "default.yaml"));
 }
 
-TEST(DumpTest, TheThesisFileDiffersOnlyInItsStep) {
+TEST(DumpTest, TheThesisFileDiffersOnlyInItsStepAndRule) {
   Config thesis;
   load_config(kConfigFolder / "thesis.yaml", thesis);
   EXPECT_NEAR(thesis.detector.sphere.bounds.step_rad, rad_from_deg(2.0), 1e-12);
+  EXPECT_EQ(thesis.detector.sphere.depth.kind, DepthRuleKind::kThesis);
+  thesis.detector.sphere.depth.kind = Config{}.detector.sphere.depth.kind;
   thesis.detector.sphere.bounds.step_rad = Config{}.detector.sphere.bounds.step_rad;
   EXPECT_EQ(to_yaml(thesis), to_yaml(Config{}));
 }
 
 TEST(DumpTest, AnglesAreWrittenInWholeDegrees) {
   // 40 deg as radians and back is 40.00000000000001 when printed with all digits.
-  const std::string yaml = to_yaml(Config{});
+  Config config;
+  config.detector.sphere.bounds.theta_min_rad = rad_from_deg(40.0);
+  const std::string yaml = to_yaml(config);
   EXPECT_THAT(yaml, HasSubstr("theta_min_deg: 40 "));
-  EXPECT_THAT(yaml, HasSubstr("phi_min_deg: -50 "));
+  EXPECT_THAT(yaml, HasSubstr("phi_min_deg: -180 "));
+  EXPECT_THAT(yaml, HasSubstr("seen_window_deg: 3 "));
 }
 
 TEST(DumpTest, EveryKeyIsInTheFile) {
@@ -62,7 +67,7 @@ TEST(DumpTest, TheDocumentationNamesEveryKeyWithItsDefault) {
     EXPECT_THAT(page, HasSubstr("`" + entry.key + "`"));
   }
   EXPECT_THAT(page, HasSubstr("`matching.matcher`"));
-  EXPECT_THAT(page, HasSubstr("| `sphere.phi_max_deg` | 50 |"));
+  EXPECT_THAT(page, HasSubstr("| `sphere.phi_max_deg` | 180 |"));
   EXPECT_THAT(page, HasSubstr("| `evaluation.labels_may_end_early` | false |"));
   EXPECT_THAT(page, HasSubstr("| `dataset.cameras` | auto |"));
 }

@@ -229,7 +229,7 @@ Config random_config(std::mt19937& random) {
   config.detector.matching.matcher.opencv.block_px = 2 * whole(0, 5) + 1;
   config.detector.sphere.bounds.theta_min_rad = rad_from_deg(whole(0, 80));
   config.detector.sphere.bounds.phi_max_rad = rad_from_deg(whole(-40, 180));
-  config.detector.sphere.sigma_threshold_m = pick(0.0, 2.0);
+  config.detector.sphere.depth.sigma_threshold_m = pick(0.0, 2.0);
   config.detector.sensor_model.k = pick(0.01, 0.99);
   config.detector.sensor_model.p_free = pick(0.01, 0.5);
   config.detector.map.voxel_m = pick(0.01, 2.0);

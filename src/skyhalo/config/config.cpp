@@ -21,6 +21,7 @@ bool not_negative(double value) noexcept {
 
 void check(const Config& config) {
   check(config.detector);
+  check(config.safety);
   const BoundsConfig& bounds = config.bounds;
   require(not_negative(bounds.ahead_m), "bounds.ahead_m", "a length >= 0 m");
   require(not_negative(bounds.behind_m), "bounds.behind_m", "a length >= 0 m");

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "skyhalo/pipeline/detector_config.hpp"
+#include "skyhalo/safety/velocity_limiter.hpp"
 
 namespace skyhalo {
 
@@ -42,6 +43,7 @@ struct EvaluationConfig {
 struct Config {
   DatasetConfig dataset;
   DetectorConfig detector;
+  SafetyConfig safety;
   BoundsConfig bounds;
   EvaluationConfig evaluation;
 };

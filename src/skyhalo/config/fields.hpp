@@ -31,6 +31,28 @@ struct EnumWords<CameraChoice> {
                                      std::pair{CameraChoice::kColour, std::string_view("colour")}};
 };
 
+template <>
+struct EnumWords<DepthRuleKind> {
+  static constexpr std::array kWords{
+      std::pair{DepthRuleKind::kThesis, std::string_view("thesis")},
+      std::pair{DepthRuleKind::kMean, std::string_view("mean")},
+      std::pair{DepthRuleKind::kNearest, std::string_view("nearest")},
+      std::pair{DepthRuleKind::kQuantile, std::string_view("quantile")}};
+};
+
+template <>
+struct EnumWords<UnseenPolicy> {
+  static constexpr std::array kWords{std::pair{UnseenPolicy::kBlock, std::string_view("block")},
+                                     std::pair{UnseenPolicy::kSlow, std::string_view("slow")},
+                                     std::pair{UnseenPolicy::kAllow, std::string_view("allow")}};
+};
+
+template <>
+struct EnumWords<Avoidance> {
+  static constexpr std::array kWords{std::pair{Avoidance::kSlide, std::string_view("slide")},
+                                     std::pair{Avoidance::kStop, std::string_view("stop")}};
+};
+
 /// Marks an angle for a visitor; keeps its constness.
 template <class Number>
 InDegrees<Number> in_degrees(Number& angle_rad) {
@@ -118,7 +140,7 @@ void visit_opencv(Sgbm& opencv, Visitor& visitor) {
 
 template <class Sphere, class Visitor>
 void visit_sphere(Sphere& sphere, Visitor& visitor) {
-  visitor.section("sphere", "from disparities to nearest distances by direction (thesis 5.3)");
+  visitor.section("sphere", "from disparities to nearest distances by direction (thesis 5.3, 5.4)");
   visitor.field("theta_min_deg",
                 in_degrees(sphere.bounds.theta_min_rad),
                 "first polar angle; 0 is up, 90 the horizon");
@@ -126,17 +148,62 @@ void visit_sphere(Sphere& sphere, Visitor& visitor) {
   visitor.field("phi_min_deg",
                 in_degrees(sphere.bounds.phi_min_rad),
                 "first azimuth; 0 is forward, positive to the left");
-  visitor.field("phi_max_deg", in_degrees(sphere.bounds.phi_max_rad), "last azimuth");
+  visitor.field("phi_max_deg",
+                in_degrees(sphere.bounds.phi_max_rad),
+                "last azimuth; at most a turn from the first");
   visitor.field("step_deg",
                 in_degrees(sphere.bounds.step_rad),
                 "size of a cell; all bounds are multiples of it");
+  visitor.field(
+      "rule",
+      sphere.depth.kind,
+      "how a cell's ranges become its depth: thesis (eq. 5.4), mean, nearest or quantile");
   visitor.field("sigma_threshold_m",
-                sphere.sigma_threshold_m,
-                "cells that vary less are one surface (eq. 5.4)");
+                sphere.depth.sigma_threshold_m,
+                "thesis: cells that vary less are one surface, of others the nearest point counts");
   visitor.field("sigma_factor",
-                sphere.sigma_factor,
-                "how many deviations in front of its mean such a cell's depth lies (eq. 5.4)");
+                sphere.depth.sigma_factor,
+                "thesis: how many deviations in front of its mean a surface's depth lies");
+  visitor.field(
+      "nearest_count",
+      sphere.depth.nearest_count,
+      "nearest: as near as this many points bear out, 1...8, or a quarter of a cell's pixels");
+  visitor.field("quantile",
+                sphere.depth.quantile,
+                "quantile: the range that this share of a cell's points does not exceed, 0...1");
+  visitor.field("min_seen_share",
+                sphere.seen.min_share,
+                "share of the pixels about a cell that must be valid for it to count as seen");
+  visitor.field(
+      "seen_window_deg",
+      in_degrees(sphere.seen.window_rad),
+      "how far about a cell nothing nearer may be, nor too much invalid, for it to be free");
+  visitor.field("near_m",
+                sphere.seen.near_m,
+                "nearer places to the body need not be seen for a direction to be free");
   visitor.field("max_range_m", sphere.max_range_m, "points farther from the camera are left out");
+}
+
+template <class Safety, class Visitor>
+void visit_safety(Safety& safety, Visitor& visitor) {
+  visitor.section("safety", "velocities that can still stop in time");
+  visitor.field(
+      "radius_m", safety.radius_m, "of a ball about the body origin that holds the vehicle");
+  visitor.field("margin_m", safety.margin_m, "kept besides the radius");
+  visitor.field("brake_mps2", safety.brake_mps2, "braking limit of the horizontal velocity, m/s^2");
+  visitor.field("brake_vertical_mps2", safety.brake_vertical_mps2, "of the vertical one, m/s^2");
+  visitor.field("delay_s", safety.delay_s, "from the images until a command takes effect");
+  visitor.field("unseen",
+                safety.unseen,
+                "where nothing was seen: block (as if there were something), slow or allow");
+  visitor.field(
+      "unseen_speed_mps", safety.unseen_speed_mps, "slow: towards what was not seen, m/s");
+  visitor.field("look_angle_deg",
+                in_degrees(safety.look_angle_rad),
+                "about the way: what is unseen farther aside does not hinder; 90 asks for all");
+  visitor.field("avoidance",
+                safety.avoidance,
+                "before a thing: slide (along it) or stop (keep the direction)");
 }
 
 template <class Sensor, class Visitor>
@@ -188,6 +255,7 @@ void visit_fields(AnyConfig& config, Visitor& visitor) {
   visit_sgm(config.detector.matching.matcher.sgm, visitor);
   visit_opencv(config.detector.matching.matcher.opencv, visitor);
   visit_sphere(config.detector.sphere, visitor);
+  visit_safety(config.safety, visitor);
   visit_sensor_model(config.detector.sensor_model, visitor);
   visit_map(config.detector.map, visitor);
   visit_bounds(config.bounds, visitor);
