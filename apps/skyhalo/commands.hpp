@@ -8,6 +8,7 @@ namespace skyhalo::app {
 void add_demo(CLI::App& program);
 void add_run(CLI::App& program);
 void add_evaluate(CLI::App& program);
+void add_halo(CLI::App& program);
 void add_disparity(CLI::App& program);
 void add_config(CLI::App& program);
 void add_sensor_model(CLI::App& program);

@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   skyhalo::app::add_demo(program);
   skyhalo::app::add_run(program);
   skyhalo::app::add_evaluate(program);
+  skyhalo::app::add_halo(program);
   skyhalo::app::add_disparity(program);
   skyhalo::app::add_config(program);
   skyhalo::app::add_sensor_model(program);

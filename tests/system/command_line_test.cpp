@@ -553,7 +553,7 @@ TEST_F(CommandLineSystem, ABadSettingIsNamed) {
            {"map.voxel_m=-1", "map.voxel_m"},
            {"matching.max_disparity_px=20", "max_disparity_px"},
            {"opencv.paths=7", "paths"},
-           {"sphere.step_deg=3", "step"},
+           {"sphere.step_deg=7", "step"},
            {"nonsense", "nonsense"}}) {
     SCOPED_TRACE(assignment);
     expect_refused(evaluate({"--set", assignment}), 3, {key});
