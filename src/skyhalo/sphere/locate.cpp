@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "skyhalo/geometry/arc_tangent-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 
 namespace skyhalo::HWY_NAMESPACE {
@@ -21,44 +23,6 @@ using Mask = hn::Mask<Floats>;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-
-/// `c0 + c1 x + c2 x^2 ...`
-template <class... Coefficients>
-HWY_INLINE Vector polynomial(Vector x, float first, Coefficients... others) {
-  const Floats d;
-  if constexpr (sizeof...(others) == 0) {
-    return hn::Set(d, first);
-  } else {
-    return hn::MulAdd(polynomial(x, others...), x, hn::Set(d, first));
-  }
-}
-
-/// Angle of (x, y) in [-pi, pi], within 3e-7 rad; fitted to `atan(x)/x` in x^2 over [0, 1].
-HWY_INLINE Vector arc_tangent(Vector y, Vector x) {
-  const Floats d;
-  const Vector across = hn::Abs(y);
-  const Vector along = hn::Abs(x);
-  // Of (0, 0) it is 0.
-  const Vector longer =
-      hn::Max(hn::Max(across, along), hn::Set(d, std::numeric_limits<float>::min()));
-  const Vector ratio = hn::Div(hn::Min(across, along), longer);
-  const Vector first = hn::Mul(ratio,
-                               polynomial(hn::Mul(ratio, ratio),
-                                          0.999999986F,
-                                          -0.333330938F,
-                                          0.199930511F,
-                                          -0.142071093F,
-                                          0.106545801F,
-                                          -0.0753346524F,
-                                          0.0430368448F,
-                                          -0.0162814388F,
-                                          0.00290315663F));
-  const Vector quarter =
-      hn::IfThenElse(hn::Gt(across, along), hn::Sub(hn::Set(d, 0.5F * kPi), first), first);
-  const Vector half =
-      hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, kPi), quarter), quarter);
-  return hn::CopySign(half, y);
-}
 
 /// `x / tan(x)` of an angle's square, for angles up to 1.5 rad, within 1e-7.
 HWY_INLINE Vector angle_by_tangent(Vector square) {
