@@ -5,7 +5,7 @@
 #include "skyhalo/camera/pinhole_pair.hpp"
 #include "skyhalo/io/map_file.hpp"
 #include "skyhalo/io/ply.hpp"
-#include "skyhalo/map/integrate.hpp"
+#include "skyhalo/map/scan_integrator.hpp"
 
 namespace {
 
@@ -25,13 +25,15 @@ int main() {
   // A wall 5.1 m ahead, seen from the origin by a pair with f 400 px and a baseline of 0.2 m.
   const skyhalo::PinholePair pair{.focal_px = 400, .baseline_m = 0.2};
   const skyhalo::SensorModelConfig sensor;
-  constexpr int kLimitUnits = 5000;
-  for (int i = -40; i <= 40; ++i) {
-    const Eigen::Vector3d target_m(5.1, 0.05 * i, 0.05);
-    const double z_m = target_m.norm();
-    const skyhalo::InverseSensorModel model(sensor, z_m, delta_z_m(pair, z_m, sensor.delta_d_px));
-    integrate({Eigen::Vector3d::Zero(), target_m / z_m}, model, kLimitUnits, map);
+  skyhalo::RangeScan scan(180);  // directions of 1 degree
+  for (int row = 70; row < 110; ++row) {
+    for (int col = 160; col < 200; ++col) {
+      const double z_m = 5.1 / scan.direction(row, col).x();
+      const double uncertainty_m = delta_z_m(pair, z_m, sensor.delta_d_px);
+      scan.set_depth(row, col, static_cast<float>(z_m), static_cast<float>(uncertainty_m));
+    }
   }
+  skyhalo::ScanIntegrator({.sensor = sensor}).integrate(scan, skyhalo::Pose::Identity(), map);
 
   for (const double x_m : {2.0, 5.1, 7.0}) {
     std::printf("%.0f m ahead: %s\n", x_m, word_for(map.at_point({x_m, 0.1, 0.05})));

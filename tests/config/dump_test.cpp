@@ -23,11 +23,13 @@ TEST(DumpTest, TheDefaultFileIsTheDefaults) {
   EXPECT_EQ(to_yaml(Config{}), read_bytes(kConfigFolder / "default.yaml"));
 }
 
-TEST(DumpTest, TheThesisFileDiffersOnlyInItsStepAndRule) {
+TEST(DumpTest, TheThesisFileDiffersOnlyInItsStepRuleAndMethod) {
   Config thesis;
   load_config(kConfigFolder / "thesis.yaml", thesis);
   EXPECT_NEAR(thesis.detector.sphere.bounds.step_rad, rad_from_deg(2.0), 1e-12);
   EXPECT_EQ(thesis.detector.sphere.depth.kind, DepthRuleKind::kThesis);
+  EXPECT_EQ(thesis.detector.map.method, IntegrationMethod::kRays);
+  thesis.detector.map.method = Config{}.detector.map.method;
   thesis.detector.sphere.depth.kind = Config{}.detector.sphere.depth.kind;
   thesis.detector.sphere.bounds.step_rad = Config{}.detector.sphere.bounds.step_rad;
   EXPECT_EQ(to_yaml(thesis), to_yaml(Config{}));

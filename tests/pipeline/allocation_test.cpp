@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "skyhalo/geometry/angle.hpp"
-#include "skyhalo/pipeline/halo_rays.hpp"
+#include "skyhalo/map/scan_integrator.hpp"
+#include "skyhalo/pipeline/halo_scan.hpp"
 #include "skyhalo/safety/velocity_limiter.hpp"
 #include "skyhalo/sphere/accumulate.hpp"
 #include "skyhalo/sphere/halo.hpp"
@@ -66,14 +67,14 @@ TEST_P(AllocationByRuleTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAn
                                                .disparity_offset_px = 0.0},
                           .T_body_camera = forward_camera(),
                           .max_range_m = 30.0};
-  const std::vector<RangeModel> models{{.pair = pair.model, .sensor = {}}};
+  const std::vector<RangeModel> models{{.pair = pair.model}};
   SphericalGrid grid(geometry, {.kind = GetParam(), .nearest_count = 1});
   Accumulator accumulator(pair, cv::Size(80, 60), geometry, grid.rule());
   Halo halo(geometry.theta_step_rad);
   VelocityLimiter limiter({}, halo);
-  const HaloRays rays(halo.geometry());
-  DenseMap map(
-      make_voxel_grid({Eigen::Vector3d::Constant(-10.0), Eigen::Vector3d::Constant(10.0)}, 0.5));
+  RangeScan scan(halo.geometry().rows);
+  ScanIntegrator integrator({});
+  LocalMap map({40, 40, 40}, 0.5);
   int sent = 0;
   const auto process = [&](const cv::Mat1f& disparity) {
     grid.clear();
@@ -81,7 +82,8 @@ TEST_P(AllocationByRuleTest, FramesAfterTheFirstAllocateNothingBetweenMatchingAn
     const std::array<PairGrid, 1> grids{{{&grid, Timestamp()}}};
     halo.stitch(grids);
     (void)limiter.limit(halo, {.desired_mps = {5.0, 1.0, 0.0}});
-    sent = rays.integrate(halo, models, Pose::Identity(), map);
+    fill_scan(halo, models, scan);
+    sent = integrator.integrate(scan, Pose::Identity(), map).things;
   };
   process(random_disparity(1));
   for (unsigned frame = 2; frame < 6; ++frame) {

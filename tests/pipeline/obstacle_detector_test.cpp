@@ -87,7 +87,7 @@ FrameSet frames_of(std::size_t pairs, int disparity_px, unsigned seed) {
 }
 
 std::vector<LogOdds> cells_of(const ObstacleDetector& detector) {
-  return {detector.map().cells().begin(), detector.map().cells().end()};
+  return {detector.dense_map().cells().begin(), detector.dense_map().cells().end()};
 }
 
 bool is_occupied(LogOdds cell) {
@@ -97,11 +97,11 @@ bool is_occupied(LogOdds cell) {
 TEST(ObstacleDetectorTest, OccupiedCellsLieAtThePlane) {
   ObstacleDetector detector(front_rig(), small_config(), map_grid());
   detector.process(frames_of(1, 20, 1), Pose::Identity());
-  const VoxelGrid& grid = detector.map().grid();
+  const VoxelGrid& grid = detector.dense_map().grid();
   int at_plane = 0;
   int elsewhere = 0;
   for (std::int64_t offset = 0; offset < grid.cell_count(); ++offset) {
-    if (is_occupied(detector.map().cells()[static_cast<std::size_t>(offset)])) {
+    if (is_occupied(detector.dense_map().cells()[static_cast<std::size_t>(offset)])) {
       // The cells that hold the plane: x in [5.0, 5.5), centre 5.25.
       const bool holds_plane = grid.cell_at(offset).x() == grid.cell_of({kPlaneM, 0.0, 0.0}).x();
       (holds_plane ? at_plane : elsewhere) += 1;
@@ -124,7 +124,7 @@ TEST(ObstacleDetectorTest, TheSeenPartOfThePlaneIsOccupiedAndTheWayToItFree) {
   // Matched columns 0...127 at f 105: y from -2.4 m to 4 m, z from -3 to 3 m on the plane.
   for (int y = 0; y < 10; ++y) {
     for (int z = 0; z < 8; ++z) {
-      expect_seen(detector.map(), {kPlaneM, 0.5 * y - 1.75, 0.5 * z - 1.75});
+      expect_seen(detector.dense_map(), {kPlaneM, 0.5 * y - 1.75, 0.5 * z - 1.75});
     }
   }
 }
@@ -134,18 +134,18 @@ TEST(ObstacleDetectorTest, ThePoseTakesThePlaneToTheMap) {
   ObstacleDetector detector(front_rig(), small_config(), map_grid());
   const Eigen::AngleAxisd turn(rad_from_deg(90.0), Eigen::Vector3d::UnitZ());
   detector.process(frames_of(1, 20, 3), make_pose(turn.toRotationMatrix(), {2.0, 1.0, 0.0}));
-  EXPECT_TRUE(is_occupied(detector.map().at_point({2.2, 6.25, 0.2})));
-  EXPECT_TRUE(is_occupied(detector.map().at_point({1.2, 6.25, -1.2})));
-  EXPECT_LT(detector.map().at_point({2.2, 4.25, 0.2}), 0);
-  EXPECT_EQ(detector.map().at_point({5.25, 0.2, 0.2}), kUnknown);
+  EXPECT_TRUE(is_occupied(detector.dense_map().at_point({2.2, 6.25, 0.2})));
+  EXPECT_TRUE(is_occupied(detector.dense_map().at_point({1.2, 6.25, -1.2})));
+  EXPECT_LT(detector.dense_map().at_point({2.2, 4.25, 0.2}), 0);
+  EXPECT_EQ(detector.dense_map().at_point({5.25, 0.2, 0.2}), kUnknown);
 }
 
 TEST(ObstacleDetectorTest, EveryPairSeesItsSide) {
   ObstacleDetector detector(two_pair_rig(), small_config(), map_grid());
   detector.process(frames_of(2, 20, 4), Pose::Identity());
-  EXPECT_TRUE(is_occupied(detector.map().at_point({kPlaneM, 0.2, 0.2})));
-  EXPECT_TRUE(is_occupied(detector.map().at_point({0.2, kPlaneM, 0.2})));
-  EXPECT_EQ(detector.map().at_point({0.2, -kPlaneM, 0.2}), kUnknown);
+  EXPECT_TRUE(is_occupied(detector.dense_map().at_point({kPlaneM, 0.2, 0.2})));
+  EXPECT_TRUE(is_occupied(detector.dense_map().at_point({0.2, kPlaneM, 0.2})));
+  EXPECT_EQ(detector.dense_map().at_point({0.2, -kPlaneM, 0.2}), kUnknown);
 }
 
 TEST(ObstacleDetectorTest, TellsWhatAPairSaw) {
@@ -157,8 +157,8 @@ TEST(ObstacleDetectorTest, TellsWhatAPairSaw) {
   EXPECT_GT(seen.pixels.measured, 128 * 120 * 9 / 10);
   EXPECT_LE(seen.pixels.measured, 128 * 120);
   EXPECT_EQ(seen.pixels.used, seen.pixels.measured);
-  EXPECT_LE(detector.rays(), seen.grid.occupied_cell_count());
-  EXPECT_GT(detector.rays(), 1000);
+  EXPECT_LE(detector.integration().things, seen.grid.occupied_cell_count());
+  EXPECT_GT(detector.integration().things, 1000);
   EXPECT_NEAR(seen.grid.rule().min_range_m, 105.0 * 0.5 / 32.0, 1e-12);
   EXPECT_ANY_THROW((void)detector.perception(1));
 }
@@ -185,15 +185,15 @@ TEST(ObstacleDetectorTest, MaskedPixelsAreNotSeen) {
   const cv::Mat1f& disparity = detector.perception(0).disparity;
   EXPECT_EQ(cv::countNonZero(disparity.rowRange(0, 61) == disparity.rowRange(0, 61)), 0);
   EXPECT_GT(cv::countNonZero(disparity == disparity), 128 * 59 / 2);
-  EXPECT_EQ(detector.map().at_point({kPlaneM, 0.2, 1.2}), kUnknown);
-  EXPECT_TRUE(is_occupied(detector.map().at_point({kPlaneM, 0.2, -1.2})));
+  EXPECT_EQ(detector.dense_map().at_point({kPlaneM, 0.2, 1.2}), kUnknown);
+  EXPECT_TRUE(is_occupied(detector.dense_map().at_point({kPlaneM, 0.2, -1.2})));
 }
 
 TEST(ObstacleDetectorTest, MovesWithItsEngines) {
   ObstacleDetector first(front_rig(), small_config(), map_grid());
   ObstacleDetector second = std::move(first);
   second.process(frames_of(1, 20, 9), Pose::Identity());
-  EXPECT_TRUE(is_occupied(second.map().at_point({kPlaneM, 0.2, 0.2})));
+  EXPECT_TRUE(is_occupied(second.dense_map().at_point({kPlaneM, 0.2, 0.2})));
 }
 
 struct Result {
@@ -377,7 +377,7 @@ TEST(ObstacleDetectorTest, TheHaloHoldsBothPairs) {
   EXPECT_GT(cells_from(detector, 1), 1000);
   const auto depths_m = detector.halo().depths_m();
   EXPECT_EQ(std::count_if(depths_m.begin(), depths_m.end(), [](float d) { return d > 0.0F; }),
-            detector.rays());
+            detector.integration().things);
 }
 
 TEST(ObstacleDetectorTest, WhatAPairDoesNotDeliverIsUnseenNotOld) {

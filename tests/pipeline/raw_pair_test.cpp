@@ -141,9 +141,11 @@ void expect_wall(const Example& example, double half_width_m) {
   for (double y = -half_width_m; y <= half_width_m; y += 0.5) {
     for (double z = -1.0; z <= 1.0; z += 0.5) {
       // The cells are centred on multiples of half a metre, so also on the wall.
-      EXPECT_GT(probability_of(detector.map().at_point({kWallM, y, z})), 0.7) << y << ", " << z;
-      EXPECT_LT(detector.map().at_point({0.5 * kWallM, 0.5 * y, 0.5 * z}), 0) << y << ", " << z;
-      EXPECT_EQ(detector.map().at_point({kWallM + 2.5, y, z}), kUnknown) << y << ", " << z;
+      EXPECT_GT(probability_of(detector.dense_map().at_point({kWallM, y, z})), 0.7)
+          << y << ", " << z;
+      EXPECT_LT(detector.dense_map().at_point({0.5 * kWallM, 0.5 * y, 0.5 * z}), 0)
+          << y << ", " << z;
+      EXPECT_EQ(detector.dense_map().at_point({kWallM + 2.5, y, z}), kUnknown) << y << ", " << z;
     }
   }
 }
@@ -279,7 +281,8 @@ TEST(RawPairTest, ThePairsRangesWin) {
 TEST(RawPairTest, RefusesImagesThatAreNotOfTheRawSizeAndKeepsTheMap) {
   const Example& example = pinhole_example();
   ObstacleDetector detector = seen(example);
-  const std::vector<LogOdds> before(detector.map().cells().begin(), detector.map().cells().end());
+  const std::vector<LogOdds> before(detector.dense_map().cells().begin(),
+                                    detector.dense_map().cells().end());
   const auto refusal = [&](const cv::Mat& left, const cv::Mat& right) {
     return message_of([&] {
       detector.process({.stamp = {}, .pairs = {{left, right}}}, Pose::Identity());
@@ -290,7 +293,8 @@ TEST(RawPairTest, RefusesImagesThatAreNotOfTheRawSizeAndKeepsTheMap) {
   EXPECT_THAT(refusal(example.images.left, rectified), HasSubstr("pair front"));
   EXPECT_THAT(refusal(rectified, example.images.right), HasSubstr("pair front"));
   EXPECT_THAT(refusal({}, example.images.right), HasSubstr("pair front"));
-  EXPECT_EQ(std::vector<LogOdds>(detector.map().cells().begin(), detector.map().cells().end()),
+  EXPECT_EQ(std::vector<LogOdds>(detector.dense_map().cells().begin(),
+                                 detector.dense_map().cells().end()),
             before);
 }
 

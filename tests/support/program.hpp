@@ -79,6 +79,14 @@ class Program {
   pid_t pid_ = -1;
 };
 
+using Arguments = std::vector<std::string>;
+
+/// Arguments, and more behind them.
+inline Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 /// Runs a program to its end.
 inline ProgramResult run_program(const std::string& program,
                                  const std::vector<std::string>& arguments,

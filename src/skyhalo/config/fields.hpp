@@ -41,6 +41,14 @@ struct EnumWords<DepthRuleKind> {
 };
 
 template <>
+struct EnumWords<IntegrationMethod> {
+  static constexpr std::array kWords{
+      std::pair{IntegrationMethod::kAuto, std::string_view("auto")},
+      std::pair{IntegrationMethod::kRays, std::string_view("rays")},
+      std::pair{IntegrationMethod::kSweep, std::string_view("sweep")}};
+};
+
+template <>
 struct EnumWords<UnseenPolicy> {
   static constexpr std::array kWords{std::pair{UnseenPolicy::kBlock, std::string_view("block")},
                                      std::pair{UnseenPolicy::kSlow, std::string_view("slow")},
@@ -217,11 +225,26 @@ void visit_sensor_model(Sensor& sensor, Visitor& visitor) {
 
 template <class Map, class Visitor>
 void visit_map(Map& map, Visitor& visitor) {
-  visitor.section("map", "the occupancy map (thesis 6.2, 7.1)");
+  visitor.section("map", "the occupancy map (thesis 6.2, 7)");
   visitor.field("voxel_m", map.voxel_m, "edge of a map cell");
   visitor.field("log_odds_limit",
                 map.log_odds_limit,
                 "log odds are kept within plus and minus this, 0.001...32");
+  visitor.field("method",
+                map.method,
+                "how a scan enters: rays (thesis), sweep (each cell looks up its direction), auto");
+  visitor.field("cell_size_term",
+                map.cell_size_term,
+                "sweep: a surface marks all cells that it touches, however exact the sensor is");
+  visitor.field("half_life_occupied_s",
+                map.decay.half_life_occupied_s,
+                "after which what occupied cells know has halved, unless seen again; 0 for never");
+  visitor.field("half_life_free_s", map.decay.half_life_free_s, "the same of free cells");
+  visitor.field("local_side_m", map.local_side_m, "local map: its length and width");
+  visitor.field("local_height_m", map.local_height_m, "local map: its height");
+  visitor.field("memory_mib",
+                map.memory_mib,
+                "sparse map with tiles: memory that it may take before far ones leave it");
 }
 
 template <class Bounds, class Visitor>

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "skyhalo/sensor_model/probability.hpp"
+
 namespace skyhalo {
 
 /// Log odds of occupancy as a fixed-point number of 2 bytes, in units of 0.001 (METHOD 5). All maps
@@ -15,12 +17,6 @@ using LogOdds = std::int16_t;
 inline constexpr LogOdds kUnknown = std::numeric_limits<LogOdds>::min();
 
 inline constexpr double kLogOddsPerUnit = 0.001;
-
-/// `log(p / (1 - p))`; p is kept within [1e-6, 1 - 1e-6].
-[[nodiscard]] inline double log_odds(double probability) noexcept {
-  const double p = std::clamp(probability, 1e-6, 1.0 - 1e-6);
-  return std::log(p / (1.0 - p));
-}
 
 /// Log odds in units of 0.001, rounded to the nearest.
 [[nodiscard]] inline int log_odds_units(double log_odds_value) noexcept {

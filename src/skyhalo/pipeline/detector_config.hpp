@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "skyhalo/geometry/angle.hpp"
+#include "skyhalo/map/decay.hpp"
+#include "skyhalo/map/scan_integrator.hpp"
 #include "skyhalo/sensor_model/inverse_sensor_model.hpp"
 #include "skyhalo/sphere/depth_rule.hpp"
 #include "skyhalo/sphere/grid_geometry.hpp"
@@ -35,10 +37,16 @@ struct SphereConfig {
   double max_range_m = 33.0;  ///< points farther from the camera are left out, > 0
 };
 
-/// The occupancy map (thesis 6 and 7.1).
+/// The occupancy map (thesis 6 and 7).
 struct MapConfig {
   double voxel_m = 0.5;         ///< edge of a cell, > 0
   double log_odds_limit = 5.0;  ///< log odds are kept within +- this, in [0.001, 32]
+  IntegrationMethod method = IntegrationMethod::kAuto;
+  bool cell_size_term = true;  ///< see `IntegrationConfig`
+  DecayConfig decay;
+  double local_side_m = 8.0;    ///< local map: length and width, > 0
+  double local_height_m = 5.0;  ///< local map: height, > 0
+  int memory_mib = 512;         ///< sparse map: what stays in memory, 1...1048576
 };
 
 /// Everything that `ObstacleDetector` can be told.
@@ -48,6 +56,12 @@ struct DetectorConfig {
   SensorModelConfig sensor_model;
   MapConfig map;
 };
+
+/// The settings of the map's integrator.
+[[nodiscard]] IntegrationConfig integration_config(const DetectorConfig& config);
+
+/// A local map of the settings' size, round the origin.
+[[nodiscard]] LocalMap make_local_map(const MapConfig& config);
 
 /// Throws `Error` (input) naming the key when a setting is outside its domain.
 void check(const DetectorConfig& config);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/for_each_index.hpp"
@@ -139,19 +140,23 @@ struct ObstacleDetector::PairEngine {
 ObstacleDetector::ObstacleDetector(const StereoRig& rig,
                                    const DetectorConfig& config,
                                    const VoxelGrid& map_grid)
-    : halo_((check(config), config.sphere.bounds.step_rad)),
-      rays_(halo_.geometry()),
-      map_(map_grid) {
+    : ObstacleDetector(rig, config, OccupancyMap(DenseMap(map_grid))) {}
+
+ObstacleDetector::ObstacleDetector(const StereoRig& rig,
+                                   const DetectorConfig& config,
+                                   OccupancyMap map)
+    : integrator_((check(config), integration_config(config))),
+      decay_(config.map.decay),
+      halo_(config.sphere.bounds.step_rad),
+      scan_(halo_.geometry().rows),
+      map_(std::move(map)) {
   if (rig.pairs.empty()) {
     throw Error(ErrorKind::kInput, "rig: expected at least one stereo pair");
   }
   pairs_.reserve(rig.pairs.size());
   for (const StereoPair& pair : rig.pairs) {
     pairs_.emplace_back(pair, config);
-    range_models_.push_back(
-        {pairs_.back().geometry.model,
-         config.sensor_model,
-         static_cast<int>(std::lround(config.map.log_odds_limit / kLogOddsPerUnit))});
+    range_models_.push_back({pairs_.back().geometry.model, config.sensor_model.delta_d_px});
   }
   grids_.resize(pairs_.size());
 }
@@ -180,9 +185,25 @@ void ObstacleDetector::process(const FrameSet& frames,
     });
     halo_.stitch(grids_);
   });
-  run_stage(observer, Stage::kMap, 0, [&] {  // thesis 6.2, 7.1
-    ray_count_ = rays_.integrate(halo_, range_models_, T_map_body, map_);
-  });
+  run_stage(observer, Stage::kMap, 0, [&] { update_map(frames.stamp, T_map_body); });
+}
+
+void ObstacleDetector::update_map(Timestamp stamp, const Pose& T_map_body) {
+  if (LocalMap* local = std::get_if<LocalMap>(&map_)) {
+    local->follow(T_map_body.translation());  // thesis 7.2.1
+  }
+  const double elapsed_s =
+      last_stamp_ ? std::chrono::duration<double>(stamp - *last_stamp_).count() : 0.0;
+  last_stamp_ = stamp;
+  fill_scan(halo_, range_models_, scan_);
+  std::visit(
+      [&](auto& map) {
+        if (const DecayStep step = decay_.pass(elapsed_s); forgets(step)) {
+          map.decay(step);
+        }
+        integration_ = integrator_.integrate(scan_, T_map_body, map);  // thesis 6.2, 7.2.2
+      },
+      map_);
 }
 
 const PairPerception& ObstacleDetector::perception(std::size_t pair) const {

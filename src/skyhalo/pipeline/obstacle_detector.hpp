@@ -1,11 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "skyhalo/camera/stereo_rig.hpp"
-#include "skyhalo/map/dense_map.hpp"
+#include "skyhalo/map/occupancy_map.hpp"
 #include "skyhalo/pipeline/detector_config.hpp"
-#include "skyhalo/pipeline/halo_rays.hpp"
+#include "skyhalo/pipeline/halo_scan.hpp"
 #include "skyhalo/pipeline/stage_observer.hpp"
 #include "skyhalo/sphere/accumulate.hpp"
 #include "skyhalo/sphere/halo.hpp"
@@ -26,7 +27,11 @@ struct PairPerception {
 /// number of threads. Not for use by two threads at once.
 class ObstacleDetector {
  public:
-  /// Throws `Error` (input) when a setting is outside its domain or the rig has no pair.
+  /// With a map of any kind, which may hold something already. Throws `Error` (input) when a
+  /// setting is outside its domain or the rig has no pair.
+  ObstacleDetector(const StereoRig& rig, const DetectorConfig& config, OccupancyMap map);
+
+  /// With a global map of these bounds.
   ObstacleDetector(const StereoRig& rig, const DetectorConfig& config, const VoxelGrid& map_grid);
   ObstacleDetector(const ObstacleDetector&) = delete;
   ObstacleDetector& operator=(const ObstacleDetector&) = delete;
@@ -45,23 +50,34 @@ class ObstacleDetector {
   /// The nearest distances in all directions, of the last frame's pairs together.
   [[nodiscard]] const Halo& halo() const noexcept { return halo_; }
 
-  /// How many measurements of the last frame went into the map.
-  [[nodiscard]] int rays() const noexcept { return ray_count_; }
+  /// What the last frame did to the map.
+  [[nodiscard]] const IntegrationReport& integration() const noexcept { return integration_; }
 
-  [[nodiscard]] const DenseMap& map() const noexcept { return map_; }
+  [[nodiscard]] const OccupancyMap& map() const noexcept { return map_; }
+
+  /// For what keeps a map within bounds from outside, between two frames.
+  [[nodiscard]] OccupancyMap& map() noexcept { return map_; }
+
+  /// The global map, if the detector was given one. Throws `std::bad_variant_access` otherwise.
+  [[nodiscard]] const DenseMap& dense_map() const { return std::get<DenseMap>(map_); }
 
  private:
   struct PairEngine;
 
   void check_frames(const FrameSet& frames) const;
+  void update_map(Timestamp stamp, const Pose& T_map_body);
 
+  // By size, as `ScanIntegrator` has room for vectors.
+  ScanIntegrator integrator_;
+  std::optional<Timestamp> last_stamp_;
   std::vector<PairEngine> pairs_;
   std::vector<PairGrid> grids_;  // of the present frame
-  Halo halo_;
-  HaloRays rays_;
   std::vector<RangeModel> range_models_;
-  int ray_count_ = 0;
-  DenseMap map_;
+  IntegrationReport integration_;
+  DecayClock decay_;
+  Halo halo_;
+  RangeScan scan_;
+  OccupancyMap map_;
 };
 
 }  // namespace skyhalo

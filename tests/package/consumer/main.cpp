@@ -21,5 +21,5 @@ int main() {
               skyhalo::kVersion,
               skyhalo::occupied_points(map, 0.7).size(),
               to_yaml(config).size());
-  return detector.map().cells().size() == map.cells().size() ? 0 : 1;
+  return detector.dense_map().cells().size() == map.cells().size() ? 0 : 1;
 }
