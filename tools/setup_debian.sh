@@ -6,8 +6,8 @@ set -eu
 
 build_packages="
   cmake g++ ninja-build
-  libcli11-dev libeigen3-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
-  opencv-doc zlib1g-dev"
+  libcli11-dev libeigen3-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev libzstd-dev
+  nlohmann-json3-dev opencv-doc zlib1g-dev"
 test_packages="
   clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-jsonschema python3-yaml
   g++-aarch64-linux-gnu libbenchmark-dev libgmock-dev libgtest-dev

@@ -158,5 +158,23 @@ TEST(OutputFolderTest, ACommitThatCannotReplaceIsAFailure) {
   EXPECT_TRUE(fs::exists(folder.path() / "out/a.txt/inside"));
 }
 
+TEST(OutputFolderTest, WhatIsLeftOutGoesWithTheCommit) {
+  const TempFolder folder;
+  (void)folder.write("out/map", "earlier");
+  (void)folder.write("out/notes", "mine");
+  {
+    OutputFolder out(folder.path() / "out");
+    out.leave_out("map");
+  }
+  EXPECT_EQ(read_bytes(folder.path() / "out/map"), "earlier") << "nothing was committed";
+  OutputFolder out(folder.path() / "out");
+  out.leave_out("map");
+  out.leave_out("none");
+  write_bytes(out.file("summary"), "new");
+  out.commit();
+  EXPECT_FALSE(fs::exists(folder.path() / "out/map"));
+  EXPECT_EQ(visible_entries(folder.path() / "out"), 2);
+}
+
 }  // namespace
 }  // namespace skyhalo

@@ -139,6 +139,12 @@ void OutputFolder::commit() {
       throw cannot_write(folder_ / entry.path().filename(), status);
     }
   }
+  for (const std::string& name : left_out_) {
+    const fs::path earlier = folder_ / name;
+    if (!fs::is_directory(earlier, status) && !fs::remove(earlier, status) && status) {
+      throw cannot_write(earlier, status);
+    }
+  }
   committed_ = true;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace skyhalo {
 
@@ -36,6 +38,10 @@ class OutputFolder {
   /// The folder that the results appear in.
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
 
+  /// From `commit` on there is no file called `name`: an earlier result that these lack must not
+  /// seem to be one of them.
+  void leave_out(std::string_view name) { left_out_.emplace_back(name); }
+
   /// Moves all files to their names, replacing earlier ones. Throws `Error` (failure).
   void commit();
 
@@ -43,6 +49,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::filesystem::path staging_;
   std::filesystem::path created_;  // the topmost folder that did not exist before; empty for none
+  std::vector<std::string> left_out_;
   bool committed_ = false;
 };
 
