@@ -14,5 +14,6 @@ void add_config(CLI::App& program);
 void add_sensor_model(CLI::App& program);
 void add_rectify(CLI::App& program);
 void add_rig(CLI::App& program);
+void add_map(CLI::App& program);
 
 }  // namespace skyhalo::app

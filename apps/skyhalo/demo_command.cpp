@@ -67,13 +67,13 @@ cv::Mat3b colour(const cv::Mat& image) {
 
 nlohmann::json summarise(const ObstacleDetector& detector, double occupied_probability) {
   const PairPerception& seen = detector.perception(0);
-  const DenseMap& map = detector.map();
+  const DenseMap& map = detector.dense_map();
   return {{"frame_sets", 1},
           {"density",
            static_cast<double>(seen.pixels.measured) / static_cast<double>(seen.disparity.total())},
           {"grid_cells", seen.grid.geometry().cell_count()},
           {"grid_cells_with_depth", seen.grid.occupied_cell_count()},
-          {"rays", detector.rays()},
+          {"rays", detector.integration().things},
           {"map_cells", map.grid().cell_count()},
           {"occupied_cells", occupied_points(map, occupied_probability).size()}};
 }
@@ -100,9 +100,9 @@ void demo(const DemoOptions& options) {
       {"right image", colour(frames.pairs.front().right)},
       {"disparity (bright is near)", disparity_picture(seen.disparity)},
       {"spherical grid, unrolled (bright is near)", grid_picture(seen.grid, 8)},
-      {"map slice from above (black is occupied)", slice_picture(detector.map(), 0.0, 4)}};
+      {"map slice from above (black is occupied)", slice_picture(detector.dense_map(), 0.0, 4)}};
   write_png(out.file("overview.png"), contact_sheet(pictures, 2, 480));
-  write_ply(out.file("map.ply"), occupied_points(detector.map(), p_occupied));
+  write_ply(out.file("map.ply"), occupied_points(detector.dense_map(), p_occupied));
   write_bytes(out.file("summary.json"), summary.dump(2) + "\n");
   out.commit();
 

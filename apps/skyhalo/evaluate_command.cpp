@@ -121,7 +121,7 @@ void check_truth(const Evaluation& evaluation, const FrameRange& range) {
 std::vector<ReportPicture> pictures(const Evaluation& evaluation, double occupied_probability) {
   // About a thousand pixels wide, whatever the map's size.
   const int cell_px = std::clamp(1000 / evaluation.truth.grid().size.head<2>().maxCoeff(), 1, 8);
-  const DenseMap& map = evaluation.detector.map();
+  const DenseMap& map = evaluation.detector.dense_map();
   return {{"Ground truth from above",
            "Colour: height, dark is low. x (forward) to the right, y up.",
            png_bytes(truth_picture(evaluation.truth, cell_px))},
@@ -143,7 +143,8 @@ void write_files(const OutputFolder& out,
   write_bytes(out.file("summary.json"), metrics_summary(result).dump(2) + "\n");
   write_ply(out.file("ground_truth.ply"),
             cell_points(evaluation.truth.grid(), evaluation.truth.occupied_offsets()));
-  write_ply(out.file("map.ply"), occupied_points(evaluation.detector.map(), occupied_probability));
+  write_ply(out.file("map.ply"),
+            occupied_points(evaluation.detector.dense_map(), occupied_probability));
 }
 
 void note_skipped(const CommonOptions& common, const std::vector<int>& frames) {

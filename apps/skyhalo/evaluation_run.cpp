@@ -73,7 +73,7 @@ void map_and_score(const KittiRawDrive& drive,
       [&](int frame) { return drive.read(frame); },
       [&](int frame, const FrameSet& frames) {
         evaluation.detector.process(frames, drive.T_map_body(frame), &evaluation.clock);
-        const auto cells = evaluation.detector.map().cells();
+        const auto cells = evaluation.detector.dense_map().cells();
         const GroundTruth& truth = evaluation.truth;
         const double p_occupied = config.occupied_probability;
         evaluation.rows.push_back({frame,

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
   skyhalo::app::add_sensor_model(program);
   skyhalo::app::add_rectify(program);
   skyhalo::app::add_rig(program);
+  skyhalo::app::add_map(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -29,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using testing::Arguments;
+using testing::operator+;
 using testing::DrivePaths;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -42,8 +44,6 @@ using testing::TempFolder;
 using testing::write_drive;
 using testing::write_text;
 
-using Arguments = std::vector<std::string>;
-
 /// Settings that suit the small pictures: a search of 32 pixels at full resolution.
 const Arguments kSmallPictures{"--set",
                                "matching.downscale=1",
@@ -51,11 +51,6 @@ const Arguments kSmallPictures{"--set",
                                "matching.max_disparity_px=32",
                                "--set",
                                "matching.rcrop_px=16"};
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -256,12 +251,12 @@ TEST_F(CommandLineSystem, TheNumberOfThreadsDoesNotChangeTheResults) {
   }
 }
 
-TEST_F(CommandLineSystem, RunWritesItsFourFiles) {
+TEST_F(CommandLineSystem, RunWritesItsFiles) {
   const ProgramResult r = run_on_drive("run", {"--json"});
   ASSERT_EQ(r.exit_code, 0) << r.err;
-  EXPECT_THAT(
-      names_in(root.path() / "out"),
-      ::testing::UnorderedElementsAre("summary.json", "map.ply", "map.ot", "trajectory.tum"));
+  EXPECT_THAT(names_in(root.path() / "out"),
+              ::testing::UnorderedElementsAre(
+                  "summary.json", "map.ply", "map.ot", "map.skymap", "trajectory.tum"));
   EXPECT_THAT(result("map.ot"), ::testing::StartsWith("# Octomap OcTree file"));
   const json summary = json::parse(result("summary.json"));
   EXPECT_EQ(summary, json::parse(lines_of(r.out).back()));

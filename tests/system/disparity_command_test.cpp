@@ -26,25 +26,21 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using testing::Arguments;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing::operator+;
 using testing::ProgramResult;
 using testing::TempFolder;
 using testing::texture;
 using testing::textured_pair;
 using testing::TexturedPair;
-using Arguments = std::vector<std::string>;
 
 constexpr int kFarPx = 8;
 constexpr int kNearPx = 24;
 const cv::Rect kNearInRight(80, 40, 70, 60);
 const cv::Rect kNearInLeft(80 + kNearPx, 40, 70, 60);
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 /// A plane at `kFarPx` with a rectangle at `kNearPx` before it.
 TexturedPair two_planes() {

@@ -30,17 +30,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using testing::Arguments;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::operator+;
 using testing::ProgramResult;
 using testing::SyntheticDrive;
 using testing::TempFolder;
-using Arguments = std::vector<std::string>;
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 /// One point of a scan file.
 std::string scan_record(double x_m, double y_m, double z_m) {

@@ -24,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::Arguments;
 using testing::changed;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -31,7 +32,6 @@ using testing::kRawRig;
 using testing::kRectifiedRig;
 using testing::ProgramResult;
 using testing::TempFolder;
-using Arguments = std::vector<std::string>;
 
 /// Two equal cameras without distortion, side by side: what is to be seen stays as it is.
 const std::string kLevelRig =

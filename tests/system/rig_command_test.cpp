@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using testing::Arguments;
 using testing::CalibrationText;
 using testing::changed;
 using ::testing::HasSubstr;
@@ -31,7 +32,6 @@ using testing::kRectifiedRig;
 using ::testing::Not;
 using testing::ProgramResult;
 using testing::TempFolder;
-using Arguments = std::vector<std::string>;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::Arguments;
 using testing::CalibrationText;
 using testing::changed;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::ProgramResult;
 using testing::TempFolder;
-using Arguments = std::vector<std::string>;
 
 /// The last line, which is JSON with `--json`.
 json last_line(const std::string& text) {

@@ -24,25 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
+using testing::Arguments;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing::operator+;
 using testing::ProgramResult;
 using testing::run_program;
 using testing::TempFolder;
 using testing::xml_fault;
 
-using Arguments = std::vector<std::string>;
 using Table = std::vector<std::vector<double>>;
 
 const Arguments kPinhole{"--model", "pinhole", "--baseline-m", "0.1", "--focal-px", "500"};
 const Arguments kSpherical{
     "--model", "spherical", "--baseline-m", "0.1", "--delta-theta-u-rad", "0.002"};
-
-Arguments operator+(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 /// The numbers below the header of a CSV file.
 Table numbers_in(const std::vector<std::string>& lines) {
