@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -14,6 +15,7 @@
 #include "skyhalo/map/local_map.hpp"
 #include "skyhalo/map/scan_integrator.hpp"
 #include "skyhalo/map/sparse_map.hpp"
+#include "support/instruction_set.hpp"
 
 namespace skyhalo {
 namespace {
@@ -338,6 +340,20 @@ INSTANTIATE_TEST_SUITE_P(Methods,
                          [](const auto& method) {
                            return method.param == IntegrationMethod::kRays ? "Rays" : "Sweep";
                          });
+
+TEST(ScanSweepReference, WithEachInstructionSet) {
+  for (const Case& one : cases()) {
+    const NaiveBox box = box_of(one, Eigen::Vector3d::Zero(), Eigen::Vector3i::Zero());
+    const NaiveIncrements naive = naive_increments(one, box, IntegrationMethod::kSweep);
+    for (const std::int64_t target : testing::InstructionSet::all()) {
+      const testing::InstructionSet in_use(target);
+      DenseMap map = dense_map(box);
+      ScanIntegrator integrator(config_of(one, IntegrationMethod::kSweep, kNoLimitUnits));
+      (void)integrator.integrate(one.scan, one.T_map_body, map);
+      (void)expect_agreement(map, naive, one.name + "_" + testing::InstructionSet::name(target));
+    }
+  }
+}
 
 TEST(ScanSweepReference, WithoutTheTermOfTheCellsSize) {
   int total = 0;

@@ -8,8 +8,8 @@
 
 namespace skyhalo::testing {
 
-/// The matcher runs with one of this processor's instruction sets for as long as this object lives,
-/// and with the best one afterwards. Not while another thread matches.
+/// Kernels run with one of this processor's instruction sets for as long as this object lives, and
+/// with the best one afterwards. Not while another thread calls one.
 class InstructionSet {
  public:
   explicit InstructionSet(std::int64_t target) { use(target); }
@@ -21,7 +21,7 @@ class InstructionSet {
 
   ~InstructionSet() { use(0); }
 
-  /// All that this processor has and the matcher was built for, best first.
+  /// All that this processor has and kernels were built for, best first.
   static std::vector<std::int64_t> all() {
     std::vector<std::int64_t> targets;
     const std::int64_t available = hwy::SupportedTargets() & HWY_TARGETS;

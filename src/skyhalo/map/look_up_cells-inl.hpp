@@ -21,22 +21,58 @@ HWY_BEFORE_NAMESPACE();
 namespace skyhalo::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One number of the records of four that begin at `first`.
-HWY_INLINE Vector gathered(const float* first, Whole record) {
-  return hn::GatherIndex(Floats(), first, hn::ShiftLeft<2>(record));
+#if HWY_TARGET != HWY_SCALAR
+/// One number of records of four, by four vectors of whole records: of the first records of all
+/// four vectors, then of the second ones.
+template <int kNumber>
+HWY_INLINE Vector transposed(Vector row0, Vector row1, Vector row2, Vector row3) {
+  const Floats d;
+  if constexpr (kNumber < 2) {
+    const Vector even = hn::InterleaveLower(d, row0, row2);
+    const Vector odd = hn::InterleaveLower(d, row1, row3);
+    return kNumber == 0 ? hn::InterleaveLower(d, even, odd) : hn::InterleaveUpper(d, even, odd);
+  } else {
+    const Vector even = hn::InterleaveUpper(d, row0, row2);
+    const Vector odd = hn::InterleaveUpper(d, row1, row3);
+    return kNumber == 2 ? hn::InterleaveLower(d, even, odd) : hn::InterleaveUpper(d, even, odd);
+  }
+}
+#endif
+
+#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR
+/// One number of each of some records of four.
+template <int kNumber>
+HWY_INLINE Vector of_records(const float* records, const std::int32_t* which) {
+  const Whole at = hn::ShiftLeft<2>(hn::LoadU(Integers(), which));
+  return hn::GatherIndex(Floats(), records + kNumber, at);
+}
+#else
+/// Every fourth of some records, one behind the other.
+template <class D>
+HWY_INLINE hn::Vec<D> every_fourth(D d, const float* records, const std::int32_t* which) {
+  if constexpr (hn::MaxLanes(D()) > 4) {
+    const hn::Half<D> half;
+    return hn::Combine(d,
+                       every_fourth(half, records, which + hn::MaxLanes(half)),
+                       every_fourth(half, records, which));
+  } else {
+    return hn::LoadU(d, records + std::ptrdiff_t{4} * *which);
+  }
 }
 
-HWY_INLINE Whole gathered(const std::int32_t* first, Whole record) {
-  return hn::GatherIndex(Integers(), first, hn::ShiftLeft<2>(record));
+/// One number of each of some records of four. Asked for all four, the records are loaded as a
+/// whole and once, which takes a part of the time of gathering number by number.
+template <int kNumber>
+HWY_INLINE Vector of_records(const float* records, const std::int32_t* which) {
+  const Floats d;
+  return transposed<kNumber>(every_fourth(d, records, which),
+                             every_fourth(d, records, which + 1),
+                             every_fourth(d, records, which + 2),
+                             every_fourth(d, records, which + 3));
 }
+#endif
 
 static_assert(sizeof(PatchPlace) == 16 && sizeof(PatchModel) == 16);
-
-/// Cells of an eighth, in whole vectors.
-struct Part {
-  std::size_t first = 0;
-  std::size_t count = 0;
-};
 
 /// How far cells are behind their patches (in front: below 0); `row`, `col`: from the directions'
 /// middles.
@@ -80,27 +116,32 @@ HWY_INLINE Whole from_table(const IncrementTable& table,
 HWY_INLINE void look_up(const SweepInput& input, std::size_t i, Places& places) {
   const Floats d;
   const Integers di;
-  const PatchPlace& place = input.patches.places[0];
-  const PatchModel& model = input.patches.models[0];
-  const Whole at =
-      hn::Add(hn::Mul(hn::LoadU(di, places.row_index.data() + i), hn::Set(di, input.patches.cols)),
-              hn::LoadU(di, places.col_index.data() + i));
+  const float* const place = &input.patches.places[0].near_m;
+  const float* const model = &input.patches.models[0].half_m;
+  HWY_ALIGN std::array<std::int32_t, hn::MaxLanes(di)> which;  // NOLINT(*-member-init)
+  const Whole first_of_row =
+      hn::Mul(hn::LoadU(di, places.row_index.data() + i), hn::Set(di, input.patches.cols));
+  hn::Store(hn::Add(first_of_row, hn::LoadU(di, places.col_index.data() + i)), di, which.data());
+  const Vector near_m = of_records<0>(place, which.data());
+  const Vector far_m = of_records<1>(place, which.data());
+  const Vector z_m = of_records<2>(place, which.data());
+  const Vector tilts = of_records<3>(place, which.data());
   const Vector range_m = hn::LoadU(d, places.range_m.data() + i);
-  const auto crossed = hn::Lt(range_m, gathered(&place.near_m, at));
-  const auto decided = hn::Or(crossed, hn::Ge(range_m, gathered(&place.far_m, at)));
+  const auto crossed = hn::Lt(range_m, near_m);
+  const auto decided = hn::Or(crossed, hn::Ge(range_m, far_m));
   Whole increment =
       hn::IfThenElseZero(hn::RebindMask(di, crossed), hn::Set(di, input.table.crossed()));
   if (!hn::AllTrue(d, decided)) {
     const Vector behind_m = behind_patch(range_m,
                                          hn::LoadU(d, places.row.data() + i),
                                          hn::LoadU(d, places.col.data() + i),
-                                         gathered(&place.z_m, at),
-                                         gathered(&place.tilts, at));
-    const Whole in_table = hn::Add(gathered(&model.in_table, at),
+                                         z_m,
+                                         hn::BitCast(di, tilts));
+    const Whole in_table = hn::Add(hn::BitCast(di, of_records<3>(model, which.data())),
                                    column_of(behind_m,
-                                             gathered(&model.half_m, at),
-                                             gathered(&model.steps_before, at),
-                                             gathered(&model.steps_behind, at)));
+                                             of_records<0>(model, which.data()),
+                                             of_records<1>(model, which.data()),
+                                             of_records<2>(model, which.data())));
     increment = from_table(input.table, hn::RebindMask(di, hn::Not(decided)), in_table, increment);
   }
   store_increments(increment, i, places);
@@ -115,19 +156,16 @@ HWY_INLINE void find_rows(const ScanPatches& patches, Window& window) {
   }
 }
 
-/// Finds the window of a part's directions. Returns whether they are all in it.
-HWY_INLINE bool find_window(const ScanPatches& patches,
-                            const Part& part,
-                            const Places& places,
-                            Window& window) {
+/// Finds the window of the directions of an eighth's cells, if there is one that holds them all.
+HWY_INLINE void find_window(const ScanPatches& patches, Places& places) {
   const Integers di;
-  Whole row = hn::LoadU(di, places.row_index.data() + part.first);
-  Whole col = hn::LoadU(di, places.col_index.data() + part.first);
+  Whole row = hn::LoadU(di, places.row_index.data());
+  Whole col = hn::LoadU(di, places.col_index.data());
   Whole row_end = row;
   Whole col_end = col;
-  for (std::size_t i = hn::Lanes(di); i < part.count; i += hn::Lanes(di)) {
-    const Whole next_row = hn::LoadU(di, places.row_index.data() + part.first + i);
-    const Whole next_col = hn::LoadU(di, places.col_index.data() + part.first + i);
+  for (std::size_t i = hn::Lanes(di); i < kEighthCells; i += hn::Lanes(di)) {
+    const Whole next_row = hn::LoadU(di, places.row_index.data() + i);
+    const Whole next_col = hn::LoadU(di, places.col_index.data() + i);
     row = hn::Min(row, next_row);
     col = hn::Min(col, next_col);
     row_end = hn::Max(row_end, next_row);
@@ -135,11 +173,11 @@ HWY_INLINE bool find_window(const ScanPatches& patches,
   }
   const Whole first_row = hn::MinOfLanes(di, row);
   const Whole first_col = hn::MinOfLanes(di, col);
-  window.row = hn::GetLane(first_row);
-  window.col = hn::GetLane(first_col);
-  find_rows(patches, window);
   const Whole most = hn::Max(hn::Sub(row_end, first_row), hn::Sub(col_end, first_col));
-  return hn::AllTrue(di, hn::Lt(most, hn::Set(di, kWindowEdge)));
+  places.in_window = hn::AllTrue(di, hn::Lt(most, hn::Set(di, kWindowEdge)));
+  places.window.row = hn::GetLane(first_row);
+  places.window.col = hn::GetLane(first_col);
+  find_rows(patches, places.window);
 }
 
 /// One number of a window's records of four: of four rows, column by column.
@@ -149,32 +187,21 @@ HWY_INLINE Vector of_window(const float* records, const Window& window) {
 #if HWY_TARGET == HWY_SCALAR
   return hn::LoadU(d, records + 4 * window.first[0] + kNumber);  // never asked: see `locate_eighth`
 #else
-  const Vector row0 = hn::LoadU(d, records + 4 * window.first[0]);
-  const Vector row1 = hn::LoadU(d, records + 4 * window.first[1]);
-  const Vector row2 = hn::LoadU(d, records + 4 * window.first[2]);
-  const Vector row3 = hn::LoadU(d, records + 4 * window.first[3]);
-  if constexpr (kNumber < 2) {
-    const Vector even = hn::InterleaveLower(d, row0, row2);
-    const Vector odd = hn::InterleaveLower(d, row1, row3);
-    return kNumber == 0 ? hn::InterleaveLower(d, even, odd) : hn::InterleaveUpper(d, even, odd);
-  } else {
-    const Vector even = hn::InterleaveUpper(d, row0, row2);
-    const Vector odd = hn::InterleaveUpper(d, row1, row3);
-    return kNumber == 2 ? hn::InterleaveLower(d, even, odd) : hn::InterleaveUpper(d, even, odd);
-  }
+  return transposed<kNumber>(hn::LoadU(d, records + 4 * window.first[0]),
+                             hn::LoadU(d, records + 4 * window.first[1]),
+                             hn::LoadU(d, records + 4 * window.first[2]),
+                             hn::LoadU(d, records + 4 * window.first[3]));
 #endif
 }
 
-/// Looks a part's cells up in the records of one window, which fit into vectors: much faster than
-/// one by one.
-HWY_INLINE void look_up_in(const SweepInput& input,
-                           const Window& window,
-                           const Part& part,
-                           Places& places) {
+/// Looks an eighth's cells up in the records of their window, which fit into vectors: faster than
+/// each in its own.
+HWY_INLINE void look_up_in_window(const SweepInput& input, Places& places) {
   const Floats d;
   const Integers di;
   const float* const place = &input.patches.places[0].near_m;
   const float* const model = &input.patches.models[0].half_m;
+  const Window& window = places.window;
   const Vector near_m = of_window<0>(place, window);
   const Vector far_m = of_window<1>(place, window);
   const Vector z_m = of_window<2>(place, window);
@@ -184,7 +211,7 @@ HWY_INLINE void look_up_in(const SweepInput& input,
   const Vector behind = of_window<2>(model, window);
   const Vector in_table = of_window<3>(model, window);
   const Whole corner = hn::Set(di, 4 * window.col + window.row);
-  for (std::size_t i = part.first; i < part.first + part.count; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < kEighthCells; i += hn::Lanes(d)) {
     const Whole lane = hn::Sub(hn::Add(hn::ShiftLeft<2>(hn::LoadU(di, places.col_index.data() + i)),
                                        hn::LoadU(di, places.row_index.data() + i)),
                                corner);

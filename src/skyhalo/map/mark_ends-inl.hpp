@@ -77,9 +77,10 @@ void mark_ends(const ScanPatches& patches,
     const Whole place =
         hn::Or(hn::ShiftLeft<6>(hn::And(cell_x, mask)),
                hn::Or(hn::ShiftLeft<3>(hn::And(cell_y, mask)), hn::And(cell_z, mask)));
-    hn::CompressStore(slot, counts, di, slots.data());
-    const std::size_t kept =
-        hn::CompressStore(hn::Or(hn::ShiftLeft<16>(place), peak), counts, di, said.data());
+    // Not by `CompressStore`, which some processors with AVX-512 take hundreds of cycles for.
+    hn::Store(hn::Compress(slot, counts), di, slots.data());
+    hn::Store(hn::Compress(hn::Or(hn::ShiftLeft<16>(place), peak), counts), di, said.data());
+    const std::size_t kept = hn::CountTrue(di, counts);
     for (std::size_t k = 0; k < kept; ++k) {
       marks.mark(slots[k],
                  static_cast<std::int16_t>(said[k] >> 16),

@@ -39,25 +39,18 @@ HWY_INLINE void locate_eighth(const SweepInput& input,
     find_rows(input.patches, places.window);
     places.in_window = true;
   } else {
-    places.in_window = find_window(input.patches, {0, kEighthCells}, places, places.window);
+    find_window(input.patches, places);
   }
 }
 
-/// Looks an eighth's cells up in their directions: in one window, in one for each vector, or one by
-/// one.
+/// Looks an eighth's cells up in their directions.
 HWY_INLINE void look_up_eighth(const SweepInput& input, Places& places) {
   if (places.in_window) {
-    look_up_in(input, places.window, {0, kEighthCells}, places);
+    look_up_in_window(input, places);
     return;
   }
-  const std::size_t lanes = hn::Lanes(Floats());
-  for (std::size_t i = 0; i < kEighthCells; i += lanes) {
-    Window window;  // NOLINT(*-member-init)
-    if (lanes >= kWindowLanes && find_window(input.patches, {i, lanes}, places, window)) {
-      look_up_in(input, window, {i, lanes}, places);
-    } else {
-      look_up(input, i, places);
-    }
+  for (std::size_t i = 0; i < kEighthCells; i += hn::Lanes(Floats())) {
+    look_up(input, i, places);
   }
 }
 
