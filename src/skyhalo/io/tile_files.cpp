@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStart = "tile";
-constexpr std::string_view kEnd = ".skymap";
+constexpr std::string_view kPrefix = "tile";
+constexpr std::string_view kSuffix = ".skymap";
 
 constexpr std::uint64_t kBricksInTile = std::uint64_t{kTileBricks} * kTileBricks * kTileBricks;
 
@@ -63,21 +63,21 @@ Tile tile_of(const Eigen::Vector3i& brick) noexcept {
 }
 
 std::string tile_file_name(const Tile& tile) {
-  std::string name(kStart);
+  std::string name(kPrefix);
   for (const int number : {std::get<0>(tile), std::get<1>(tile), std::get<2>(tile)}) {
     name += "_" + std::to_string(number);
   }
-  return name.append(kEnd);
+  return name.append(kSuffix);
 }
 
 std::optional<Tile> tile_named(const std::string& name) {
   constexpr int kMostTiles = VoxelLattice::kReach / (kTileBricks * kBrickEdge);
-  if (!name.starts_with(kStart) || !name.ends_with(kEnd)) {
+  if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) {
     return std::nullopt;
   }
   std::array<int, 3> place{};
-  const char* at = name.data() + kStart.size();
-  const char* const end = name.data() + name.size() - kEnd.size();
+  const char* at = name.data() + kPrefix.size();
+  const char* const end = name.data() + name.size() - kSuffix.size();
   for (int& number : place) {
     if (at >= end || *at != '_') {
       return std::nullopt;
