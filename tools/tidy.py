@@ -134,7 +134,7 @@ def check(file, folder, config):
     )
     if done.returncode == 0:
         return ""
-    return done.stdout or done.stderr
+    return done.stdout or done.stderr or f"{file}: {CLANG_TIDY} ended with {done.returncode} and said nothing\n"
 
 
 def check_unit(unit, name, sources, folder):
