@@ -62,7 +62,7 @@ tsan: setup-test
 	ctest --preset tsan --parallel $(JOBS)
 
 fuzz: setup-test
-	cmake --preset fuzz
+	cmake --preset asan
 	cmake --build --preset fuzz --parallel $(JOBS)
 	ctest --preset fuzz
 

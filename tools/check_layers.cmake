@@ -1,6 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 
-# Fails on an include that points upwards. Usage: cmake -D SOURCE_DIR=<src/skyhalo> -P check_layers.cmake
+# Fails on an include that points upwards, and on a source that does not begin with its own header, which would hide
+# what the header lacks. Usage: cmake -D SOURCE_DIR=<src/skyhalo> -P check_layers.cmake
 # Reads SKYHALO_LAYERS, and SKYHALO_FORBIDDEN_<layer>, from SOURCE_DIR/CMakeLists.txt: the same list that
 # the build follows.
 file(READ "${SOURCE_DIR}/CMakeLists.txt" build_file)
@@ -34,6 +35,11 @@ foreach(layer IN LISTS layers)
   endif()
   foreach(source IN LISTS sources)
     file(STRINGS "${source}" includes REGEX "^ *# *include +\"")
+    file(STRINGS "${source}" first REGEX "^ *# *include" LIMIT_COUNT 1)
+    string(REGEX REPLACE "^.*/(${layer}/.*)\\.cpp$" "\\1.hpp" header "${source}")
+    if(source MATCHES "\\.cpp$" AND EXISTS "${SOURCE_DIR}/${header}" AND NOT first MATCHES "\"skyhalo/${header}\"")
+      list(APPEND faults "${source}: must include skyhalo/${header} before anything else")
+    endif()
     foreach(line IN LISTS includes)
       if(NOT line MATCHES "\"skyhalo/([a-z_]+)/([a-z_]+/)?[a-z0-9_]+(-inl)?\\.hpp\"")
         list(APPEND faults "${source}: ${line}: expected \"skyhalo/LAYER/[PART/]FILE.hpp\"")

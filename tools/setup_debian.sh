@@ -5,7 +5,7 @@
 set -eu
 
 build_packages="
-  cmake g++ ninja-build
+  cmake g++ ninja-build python3
   libcli11-dev libeigen3-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev libzstd-dev
   nlohmann-json3-dev opencv-doc zlib1g-dev"
 test_packages="

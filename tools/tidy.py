@@ -16,12 +16,10 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+from source_units import is_kernel, units_of
+
 CLANG_TIDY = "clang-tidy-14"
 MOST_IN_A_UNIT = 12
-
-# What a source names at the start of a line: functions, constants, types.
-NAMED = re.compile(r"(?<![:\w])(\w+)(?=\(| =|\{)|(?:struct|class|using) (\w+)")
-
 
 def without_files(command):
     """What a source is compiled with, without its name and the object's."""
@@ -34,45 +32,22 @@ def without_files(command):
     return tuple(kept)
 
 
+def members_of(file):
+    """The sources of a unit that CMake joined; else the file itself."""
+    if file.parent.name != "Unity":
+        return [file]
+    return [pathlib.Path(name) for name in re.findall(r'^#include "(.*)"', file.read_text(), re.MULTILINE)]
+
+
 def sources_of(build, folders):
     """Each source below the folders, with how it is compiled."""
     entries = json.loads((build / "compile_commands.json").read_text())
     found = {}
     for entry in entries:
-        file = pathlib.Path(entry["file"])
-        if any(folder in file.parents for folder in folders):
-            found.setdefault(file, (entry["directory"], without_files(entry["command"])))
+        for file in members_of(pathlib.Path(entry["file"])):
+            if any(folder in file.parents for folder in folders):
+                found.setdefault(file, (entry["directory"], without_files(entry["command"])))
     return found
-
-
-def is_kernel(file):
-    """Whether a source includes itself for each instruction set."""
-    return "foreach_target.h" in file.read_text()
-
-
-def names_in(file):
-    """What a source may name that another one of its unit must not."""
-    names = set()
-    for line in file.read_text().splitlines():
-        if line[:1].isalpha() and not line.startswith("namespace"):
-            names.update(name for pair in NAMED.findall(line) for name in pair if name)
-    return names
-
-
-def units_of(sources, most):
-    """Lists of sources that may share a unit."""
-    units = []  # (kind, names, files)
-    for file in sorted(sources):
-        names, kind = names_in(file), None if is_kernel(file) else (file.parent, sources[file])
-        for unit in units:
-            if kind and unit[0] == kind and len(unit[2]) < most and not names & unit[1]:
-                unit[1].update(names)
-                unit[2].append(file)
-                break
-        else:
-            units.append((kind, names, [file]))
-    # The long ones first, so that no processor waits for one at the end.
-    return sorted((files for _, _, files in units), key=len, reverse=True)
 
 
 def joined(files):

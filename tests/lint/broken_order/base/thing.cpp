@@ -1,0 +1,3 @@
+#include <vector>
+
+#include "skyhalo/base/thing.hpp"
