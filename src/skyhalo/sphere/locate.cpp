@@ -52,10 +52,11 @@ HWY_INLINE hn::Vec<Integers> cell_of(const LocateGrid& grid, Vector theta, Vecto
   const Vector turned = hn::IfThenElse(
       hn::Lt(from_first, zero), hn::Add(from_first, hn::Set(d, 2.0F * kPi)), from_first);
   const Vector col = hn::Mul(turned, hn::Set(d, grid.cols_per_rad));
-  auto row_index = hn::ConvertTo(di, row);
-  auto col_index = hn::ConvertTo(di, col);
-  const auto cols = hn::Set(di, grid.cols);
   Mask inside = hn::And(hn::Ge(row, zero), hn::Ge(col, zero));
+  // A whole number of NaN is undefined where vectors are emulated.
+  auto row_index = hn::ConvertTo(di, hn::IfThenElseZero(inside, row));
+  auto col_index = hn::ConvertTo(di, hn::IfThenElseZero(inside, col));
+  const auto cols = hn::Set(di, grid.cols);
   if (grid.reaches_down) {
     row_index = hn::Min(row_index, hn::Set(di, grid.rows - 1));
   } else {
