@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "reference/naive_map_query.hpp"
+#include "support/rounds.hpp"
 
 namespace skyhalo {
 namespace {
@@ -71,7 +72,7 @@ TEST(CapsuleReference, ReachesTheCellsThatAreNearEnough) {
   const VoxelLattice lattice{{0.07, -0.02, 0.11}, 0.25};
   const CellBox all =
       cells_touching(lattice, Eigen::Vector3d::Constant(-3.2), Eigen::Vector3d::Constant(3.2));
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < testing::rounds(12); ++i) {
     Capsule capsule{{{position_m(rng), position_m(rng), position_m(rng)},
                      {position_m(rng), position_m(rng), position_m(rng)}},
                     i % 4 == 0 ? 0.0 : radius_m(rng)};

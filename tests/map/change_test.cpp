@@ -14,6 +14,7 @@
 #include "skyhalo/map/map_query.hpp"
 #include "skyhalo/map/scan_integrator.hpp"
 #include "skyhalo/map/sparse_map.hpp"
+#include "support/rounds.hpp"
 
 namespace skyhalo {
 namespace {
@@ -165,7 +166,7 @@ struct Pole {
 };
 
 TEST_P(MapChangeTest, AThinPoleStaysWhileItIsSeen) {
-  constexpr int kFrames = 200;
+  constexpr int kFrames = testing::rounds(200);
   for (const double voxel_m : {0.25, 0.1}) {
     SCOPED_TRACE(voxel_m);
     Random random(62);

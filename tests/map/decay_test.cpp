@@ -211,10 +211,13 @@ TEST(DecayTest, RefusesTimesThatAreNone) {
   EXPECT_NO_THROW(check(DecayConfig{3600.0, 0.5}));
   for (const double bad : {-1.0, kNan, kInf}) {
     EXPECT_NE(message_of([&] {
-                check({bad, 1.0});
+                check(DecayConfig{bad, 1.0});
               }).find("half_life_occupied_s"),
               std::string::npos);
-    EXPECT_NE(message_of([&] { check({1.0, bad}); }).find("half_life_free_s"), std::string::npos);
+    EXPECT_NE(message_of([&] {
+                check(DecayConfig{1.0, bad});
+              }).find("half_life_free_s"),
+              std::string::npos);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/safety/velocity_limiter.hpp"
 #include "support/ball_world.hpp"
+#include "support/rounds.hpp"
 
 namespace skyhalo {
 namespace {
@@ -533,6 +534,7 @@ unsigned first_seed() {
 /// nothing.
 Outcome fly_worlds(const Kind& kind, unsigned worlds, const std::function<Rules()>& make_rules) {
   Outcome sum;
+  worlds = static_cast<unsigned>(testing::rounds(static_cast<int>(worlds)));
   for (unsigned i = 0; i < worlds; ++i) {
     const Outcome outcome = fly(kind, first_seed() + i, make_rules());
     EXPECT_EQ(outcome.wrong, "");

@@ -11,6 +11,7 @@
 #include "reference/naive_halo.hpp"
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/geometry/spherical.hpp"
+#include "support/rounds.hpp"
 
 namespace skyhalo {
 namespace {
@@ -346,7 +347,7 @@ TEST(HaloQueryProperty, ATubeIsNeverLongerThanABallCanGo) {
   std::normal_distribution<double> normal(0.0, 1.0);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   double travelled_m = 0.0;
-  for (int round = 0; round < 25; ++round) {
+  for (int round = 0; round < testing::rounds(25); ++round) {
     Halo halo = free_halo(6.0);
     for (int things = 0; things < 60; ++things) {
       const double azimuth_deg = 360.0 * unit(random) - 180.0;

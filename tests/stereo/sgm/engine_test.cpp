@@ -15,6 +15,7 @@
 #include "reference/naive_sgm.hpp"
 #include "stereo/sgm/planes.hpp"
 #include "stereo/sgm/sgm_case.hpp"
+#include "support/rounds.hpp"
 #include "support/textured_pair.hpp"
 
 namespace skyhalo {
@@ -154,13 +155,13 @@ cv::Size any_size(SgmCases& cases, int max_disparity_px) {
 TEST(EngineReference, EqualsTheNaiveMatcherOfAnySizeAndSetting) {
   SgmCases cases(1);
   int found = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < testing::rounds(200); ++round) {
     const int max_disparity_px = 16 * (round % 3 == 0 ? cases.draw(1, 16) : cases.draw(1, 4));
     const SgmCase of = cases.next(any_size(cases, max_disparity_px), max_disparity_px);
     expect_as_reference(of, cases.any_pair(of.pair.left.size(), max_disparity_px));
     found += count_found(matched(of));
   }
-  EXPECT_GT(found, 10'000);
+  EXPECT_GT(found, testing::rounds(10'000));
 }
 
 TEST(EngineReference, EqualsTheNaiveMatcherOfOneToManyRows) {
@@ -185,7 +186,8 @@ TEST(EngineReference, EqualsTheNaiveMatcherAroundTheShortestStrip) {
 
 TEST(EngineReference, EqualsTheNaiveMatcherOfImagesJustWideEnough) {
   SgmCases cases(4);
-  for (int max_disparity_px = 16; max_disparity_px <= 256; max_disparity_px += 16) {
+  for (int max_disparity_px = 16; max_disparity_px <= testing::rounds(256);
+       max_disparity_px += 16) {
     for (const int more_px : {1, 2}) {
       const SgmCase of =
           cases.next({max_disparity_px + more_px, cases.draw(1, 4)}, max_disparity_px);
