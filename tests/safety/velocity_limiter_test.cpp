@@ -30,7 +30,6 @@ constexpr double kStepDeg = 2.0;
 
 // Middles of cells are a degree beside the axes.
 constexpr GridCell kAhead{45, 90};
-constexpr GridCell kBehind{45, 0};
 constexpr GridCell kLeft{45, 135};
 constexpr GridCell kAbove{0, 90};
 constexpr GridCell kBelow{89, 90};

@@ -17,7 +17,6 @@ namespace skyhalo {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Free for 20 m in all directions.
 Halo free_halo(double step_deg = 2.0) {
