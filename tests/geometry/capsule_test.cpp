@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "reference/naive_map_query.hpp"
-#include "support/rounds.hpp"
+#include "support/sanitised.hpp"
 
 namespace skyhalo {
 namespace {

@@ -16,6 +16,7 @@
 #include "skyhalo/io/skymap_file.hpp"
 #include "skyhalo/io/text_file.hpp"
 #include "support/expect_error.hpp"
+#include "support/sanitised.hpp"
 #include "support/temp_folder.hpp"
 
 namespace skyhalo {
@@ -303,9 +304,9 @@ std::int64_t growth_while_reading(const std::filesystem::path& file, std::uint64
 class SkymapMemoryTest : public SkymapDamageTest {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__)
-    GTEST_SKIP() << "the address sanitiser takes memory of its own";
-#endif
+    if (testing::kSanitised) {
+      GTEST_SKIP() << "a sanitiser takes memory of its own";
+    }
   }
 
   /// The least limit with which a map is read must be more than it takes.

@@ -14,7 +14,7 @@
 #include "skyhalo/map/map_query.hpp"
 #include "skyhalo/map/scan_integrator.hpp"
 #include "skyhalo/map/sparse_map.hpp"
-#include "support/rounds.hpp"
+#include "support/sanitised.hpp"
 
 namespace skyhalo {
 namespace {

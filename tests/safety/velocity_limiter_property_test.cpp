@@ -20,7 +20,7 @@
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/safety/velocity_limiter.hpp"
 #include "support/ball_world.hpp"
-#include "support/rounds.hpp"
+#include "support/sanitised.hpp"
 
 namespace skyhalo {
 namespace {

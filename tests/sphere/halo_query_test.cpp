@@ -11,7 +11,7 @@
 #include "reference/naive_halo.hpp"
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/geometry/spherical.hpp"
-#include "support/rounds.hpp"
+#include "support/sanitised.hpp"
 
 namespace skyhalo {
 namespace {

@@ -15,7 +15,7 @@
 #include "reference/naive_sgm.hpp"
 #include "stereo/sgm/planes.hpp"
 #include "stereo/sgm/sgm_case.hpp"
-#include "support/rounds.hpp"
+#include "support/sanitised.hpp"
 #include "support/textured_pair.hpp"
 
 namespace skyhalo {
