@@ -21,11 +21,12 @@ enum class CubeVerdict : std::uint8_t {
 inline constexpr std::size_t kCubesAtOnce = 64;
 
 /// Cubes of one size, along the map's axes, by their centres from the body's
-/// origin, in the body's frame (m).
-struct Cubes {  // NOLINT(*-member-init): as many as are counted
-  alignas(64) std::array<float, kCubesAtOnce> x_m;
-  alignas(64) std::array<float, kCubesAtOnce> y_m;
-  alignas(64) std::array<float, kCubesAtOnce> z_m;
+/// origin, in the body's frame (m). Places behind the last one are zero: vectors hold them, too,
+/// and what else lay there might be NaN.
+struct Cubes {  // NOLINT(*-member-init): `known` is asked for as many as are counted
+  alignas(64) std::array<float, kCubesAtOnce> x_m{};
+  alignas(64) std::array<float, kCubesAtOnce> y_m{};
+  alignas(64) std::array<float, kCubesAtOnce> z_m{};
   std::array<bool, kCubesAtOnce> known;  ///< to be mixed, without being asked for
   float half_edge_m = 0.0F;
   std::size_t count = 0;
