@@ -8,6 +8,7 @@
 
 #include "skyhalo/evaluation/report_template.hpp"
 #include "skyhalo/evaluation/thesis_table.hpp"
+#include "skyhalo/io/base64.hpp"
 
 namespace skyhalo {
 namespace {
@@ -89,24 +90,6 @@ json stages_json(const EvaluationResult& result) {
     stages.push_back({{"stage", stage.stage}, {"p50_ms", stage.p50_ms}, {"p95_ms", stage.p95_ms}});
   }
   return stages;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-    unsigned group = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      group = group << 8U | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      text += i <= count ? kDigits[group >> (18 - 6 * i) & 63U] : '=';
-    }
-  }
-  return text;
 }
 
 /// The facts that summary and page share.
