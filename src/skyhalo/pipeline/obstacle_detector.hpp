@@ -50,6 +50,9 @@ class ObstacleDetector {
   /// The nearest distances in all directions, of the last frame's pairs together.
   [[nodiscard]] const Halo& halo() const noexcept { return halo_; }
 
+  /// What the last frame told the map, for other maps to take in.
+  [[nodiscard]] const RangeScan& scan() const noexcept { return scan_; }
+
   /// What the last frame did to the map.
   [[nodiscard]] const IntegrationReport& integration() const noexcept { return integration_; }
 
