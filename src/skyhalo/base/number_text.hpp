@@ -8,4 +8,7 @@ namespace skyhalo {
 /// cut.
 [[nodiscard]] std::string number_text(const char* format, double value);
 
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string exact_number_text(double value);
+
 }  // namespace skyhalo

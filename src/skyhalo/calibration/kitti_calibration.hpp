@@ -39,4 +39,9 @@ struct KittiCalibration {
 [[nodiscard]] KittiCalibration read_kitti_raw_calibration(const std::filesystem::path& day_folder,
                                                           KittiPair pair);
 
+/// Reads the colour pair (`P2`, `P3`) of a calibration file of KITTI's tracking or object
+/// benchmark, with `R_rect` or `R0_rect`, `Tr_velo_cam` or `Tr_velo_to_cam`, `Tr_imu_velo` or
+/// `Tr_imu_to_velo`, with or without colons. Throws as `read_kitti_raw_calibration` does.
+[[nodiscard]] KittiCalibration read_kitti_tracking_calibration(const std::filesystem::path& file);
+
 }  // namespace skyhalo

@@ -13,7 +13,6 @@
 namespace skyhalo {
 namespace {
 
-using RowMajor34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 using std::filesystem::path;
 
 RigDescription rectified_rig(const cv::Size& size_px,
@@ -50,36 +49,6 @@ cv::Size read_pair_size_px(const KeyValueFile& file, KittiPair pair) {
   return size_px;
 }
 
-/// The first spelling that is there; throws when none is.
-std::string spelling(const KeyValueFile& file,
-                     const std::string& first,
-                     const std::string& second) {
-  if (!file.has(first) && !file.has(second)) {
-    throw file.error(first, "this key is missing, and so is " + second);
-  }
-  return file.has(first) ? first : second;
-}
-
-/// A transform of 12 numbers, row by row (m).
-Pose read_transform(const KeyValueFile& file, const std::string& key) {
-  const std::vector<double> values = file.numbers(key, 12);
-  const RowMajor34 T = Eigen::Map<const RowMajor34>(values.data());
-  const Eigen::Matrix3d R = T.leftCols<3>();
-  if (!is_rotation(R, 1e-4)) {
-    throw file.error(key, "its first three columns are not a rotation matrix");
-  }
-  return make_pose(nearest_rotation(R), T.col(3));
-}
-
-Pose read_pose(const KeyValueFile& file, const Pose& T_right_reference) {
-  const Pose T_laser_imu = read_transform(file, spelling(file, "Tr_imu_velo", "Tr_imu_to_velo"));
-  const Pose T_camera_laser = read_transform(file, spelling(file, "Tr_velo_cam", "Tr_velo_to_cam"));
-  const Eigen::Matrix3d R_reference_camera =
-      nearest_rotation(read_kitti_rotation(file, spelling(file, "R_rect", "R0_rect")));
-  return T_right_reference * make_pose(R_reference_camera, Eigen::Vector3d::Zero()) *
-         T_camera_laser * T_laser_imu;
-}
-
 constexpr const char* kCamerasFile = "calib_cam_to_cam.txt";
 
 /// Whether the day's files that lead to the INS lie beside the cameras' one; one is enough, so that
@@ -112,13 +81,11 @@ RigDescription read_kitti_raw_rig(const path& day_folder_or_file, KittiPair pair
 }
 
 RigDescription read_kitti_tracking_rig(const path& file, std::optional<cv::Size> size_px) {
-  const KeyValueFile values(file);
-  const KittiProjections projections = read_kitti_projections(values, "P2", "P3");
-  const Pose T_right_imu = read_pose(values, projections.T_right_reference);
+  const KittiCalibration calibration = read_kitti_tracking_calibration(file);
   if (!size_px) {
     throw input_error(file, "the size of the images is not in this file and must be given");
   }
-  RigDescription rig = rectified_rig(*size_px, projections.pair, T_right_imu.inverse());
+  RigDescription rig = rectified_rig(*size_px, calibration.pair, calibration.T_body_right());
   rig.T_body_imu = Pose::Identity();
   return rig;
 }

@@ -29,7 +29,7 @@ class FrameSource {
   /// When a frame was taken.
   [[nodiscard]] virtual Timestamp stamp(int frame) const = 0;
 
-  /// Where the body was; the map frame is the body's at the first frame.
+  /// Where the body was. The map frame is the recording's; each source says which.
   [[nodiscard]] virtual Pose T_map_body(int frame) const = 0;
 
   /// The images of a frame. Throws `Error` (input) naming the file when one cannot be read.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/dataset/kitti_frames.hpp"
 #include "skyhalo/dataset/kitti_oxts.hpp"
 #include "skyhalo/dataset/velodyne_file.hpp"
 #include "skyhalo/io/image_file.hpp"
@@ -37,19 +38,12 @@ KittiPair choose_pair(const fs::path& folder, CameraChoice choice) {
 
 /// Poses in the frame of the first one.
 std::vector<Pose> read_poses(const fs::path& folder, std::size_t count) {
-  std::vector<Pose> poses;
-  double first_latitude_deg = 0.0;
-  Pose T_map_enu = Pose::Identity();
+  std::vector<InsReading> readings;
   for (std::size_t frame = 0; frame < count; ++frame) {
-    const InsReading reading =
-        read_oxts(folder / "oxts" / "data" / file_name(static_cast<int>(frame), ".txt"));
-    if (frame == 0) {
-      first_latitude_deg = reading.latitude_deg;
-      T_map_enu = T_enu_body(reading, first_latitude_deg).inverse();
-    }
-    poses.push_back(T_map_enu * T_enu_body(reading, first_latitude_deg));
+    readings.push_back(
+        read_oxts(folder / "oxts" / "data" / file_name(static_cast<int>(frame), ".txt")));
   }
-  return poses;
+  return poses_of(readings);
 }
 
 }  // namespace
@@ -93,12 +87,7 @@ KittiRawDrive::KittiRawDrive(const fs::path& folder,
     use_rig(*std::move(rig));
     return;
   }
-  const cv::Size size = read_image(image_file(left + 1, 0)).size();
-  rig_.pairs.push_back({.name = "front",
-                        .image_size_px = size,
-                        .model = calibration_.pair,
-                        .T_body_camera = calibration_.T_body_right(),
-                        .masks_px = {}});
+  rig_ = kitti_stereo_rig(calibration_, read_image(image_file(left + 1, 0)).size());
 }
 
 void KittiRawDrive::use_rig(KittiRig rig) {
@@ -106,10 +95,7 @@ void KittiRawDrive::use_rig(KittiRig rig) {
     throw input_error(folder_, "expected a rig of one pair, for the two cameras of a KITTI drive");
   }
   rig_ = std::move(rig.rig);
-  calibration_.T_body_laser = rig.T_body_imu * calibration_.T_body_laser;
-  for (Pose& T_map_body : poses_) {
-    T_map_body = rig.T_body_imu * T_map_body * rig.T_body_imu.inverse();
-  }
+  move_body(rig.T_body_imu, calibration_, poses_);
 }
 
 Timestamp KittiRawDrive::stamp(int frame) const {
@@ -149,14 +135,7 @@ std::optional<LaserScan> KittiRawDrive::read_scan(int frame) const {
 }
 
 TruthCamera KittiRawDrive::truth_camera() const {
-  // The annotated camera is the left one; its principal point differs from the right one's by the
-  // disparity offset.
-  const PinholePair& pair = calibration_.pair;
-  return {pair.focal_px,
-          pair.principal_u_px - pair.disparity_offset_px,
-          pair.principal_v_px,
-          rig_.pairs.front().image_size_px,
-          calibration_.T_left_reference * calibration_.T_reference_laser};
+  return kitti_truth_camera(calibration_, rig_.pairs.front().image_size_px);
 }
 
 fs::path KittiRawDrive::image_file(int camera, int frame) const {

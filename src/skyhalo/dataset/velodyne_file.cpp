@@ -5,6 +5,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/io/output_folder.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
@@ -29,6 +30,27 @@ LaserScan read_velodyne(const std::filesystem::path& file) {
     }
   }
   return scan;
+}
+
+void write_velodyne(const std::filesystem::path& file, const LaserReturns& scan) {
+  const std::size_t count = scan.points_m.size();
+  if (!scan.reflectances.empty() && scan.reflectances.size() != count) {
+    throw input_error(file,
+                      "expected a reflectance for each of " + std::to_string(count) +
+                          " points, found " + std::to_string(scan.reflectances.size()));
+  }
+  using Record = std::array<float, 4>;
+  std::string bytes(count * sizeof(Record), '\0');
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f& p_m = scan.points_m[i];
+    if (!p_m.allFinite()) {
+      throw input_error(file, "point " + std::to_string(i) + " of the scan is not finite");
+    }
+    const float reflectance = scan.reflectances.empty() ? 0.0F : scan.reflectances[i];
+    const Record record{p_m.x(), p_m.y(), p_m.z(), reflectance};
+    std::memcpy(bytes.data() + i * sizeof(Record), record.data(), sizeof(Record));
+  }
+  write_bytes(file, bytes);
 }
 
 }  // namespace skyhalo
