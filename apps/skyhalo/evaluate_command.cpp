@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "annotations.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "evaluation_run.hpp"
@@ -12,7 +13,6 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/version.hpp"
 #include "skyhalo/dataset/drive_bounds.hpp"
-#include "skyhalo/dataset/kitti_labels.hpp"
 #include "skyhalo/evaluation/comparison_picture.hpp"
 #include "skyhalo/evaluation/report.hpp"
 #include "skyhalo/io/image_file.hpp"
@@ -29,7 +29,6 @@ struct EvaluateOptions {
   CommonOptions common;
   SourceOptions source;
   std::string labels;
-  std::string sequence;
   std::string bounds;
   double voxel_m = 0.0;  // 0: as configured
   std::string frames;
@@ -56,42 +55,34 @@ Eigen::AlignedBox3d parse_bounds(const std::string& text) {
           Eigen::Vector3d(values[1], values[3], values[5])};
 }
 
-/// The labels of the drive; without a file, none. A file of another length belongs to another
-/// drive.
-TrackLabels read_labels(const EvaluateOptions& options, const Config& config, int frame_count) {
-  if (options.labels.empty()) {
-    return {};
+/// "0003" of label_02_0003.txt or 0003.txt; else the recording's name.
+std::string sequence_name(const EvaluateOptions& options,
+                          const std::string& label_file,
+                          const FrameSource& source) {
+  if (!options.source.sequence.empty()) {
+    return options.source.sequence;
   }
-  TrackLabels labels(options.labels);
-  const int last = labels.last_frame();
-  if (last < 0) {
-    throw input_error(options.labels, "holds no label");
-  }
-  const std::string has = "the labels end with frame " + std::to_string(last) +
-                          ", the drive with frame " + std::to_string(frame_count - 1);
-  if (last >= frame_count) {
-    throw input_error(options.labels, labels.last_frame_line(), has);
-  }
-  if (last < frame_count - 1 && !config.evaluation.labels_may_end_early) {
-    throw input_error(options.labels,
-                      labels.last_frame_line(),
-                      has +
-                          "; if there really is nothing after it, use --set "
-                          "evaluation.labels_may_end_early=true");
-  }
-  return labels;
-}
-
-/// "0003" of label_02_0003.txt or 0003.txt; else the drive's name.
-std::string sequence_name(const EvaluateOptions& options, const FrameSource& source) {
-  if (!options.sequence.empty()) {
-    return options.sequence;
-  }
-  const std::string stem = std::filesystem::path(options.labels).stem().string();
+  const std::string stem = std::filesystem::path(label_file).stem().string();
   const std::string last = stem.substr(stem.find_last_of('_') + 1);
   const bool four_digits =
       last.size() == 4 && last.find_first_not_of("0123456789") == std::string::npos;
   return four_digits ? last : source.name();
+}
+
+/// Opens a recording with a laser scanner. `--sequence` chooses among KITTI's sequences; elsewhere
+/// it only names the recording in tables.
+Recording open_laser_recording(const EvaluateOptions& options, const Config& config) {
+  SourceOptions source = options.source;
+  if (format_of(source) != SourceFormat::kKittiTracking) {
+    source.sequence.clear();
+  }
+  Recording recording = open_recording(source, options.common, config, Poses::kNeeded);
+  if (recording.laser == nullptr) {
+    throw input_error(source.path,
+                      "is no recording with a laser scanner; expected KITTI's raw data or tracking "
+                      "benchmark, or a skyhalo recording with laser/");
+  }
+  return recording;
 }
 
 /// A picture for the page; one that is too large for a page is shrunk.
@@ -107,9 +98,7 @@ std::string png_bytes(cv::Mat picture) {
 /// Fails where there is nothing to score against.
 void check_truth(const Evaluation& evaluation, const FrameRange& range) {
   if (static_cast<int>(evaluation.skipped_scans.size()) > range.last - range.first) {
-    throw Error(
-        ErrorKind::kInput,
-        "none of the frames has a laser scan (velodyne_points/data); there is no ground truth");
+    throw Error(ErrorKind::kInput, "none of the frames has a laser scan; there is no ground truth");
   }
   const auto observed = evaluation.truth.observed();
   if (std::all_of(observed.begin(), observed.end(), [](std::uint8_t cell) { return cell == 0; })) {
@@ -164,23 +153,28 @@ void evaluate(const EvaluateOptions& options) {
   config.detector.map.voxel_m =
       options.voxel_m > 0.0 ? options.voxel_m : config.detector.map.voxel_m;
   const ThreadLimit limit(options.common.threads);
-  const auto drive = open_drive(options.source, config.dataset);
-  const TrackLabels labels = read_labels(options, config, drive->frame_count());
-  const FrameRange range = parse_frames(options.frames, drive->frame_count());
+  const Recording recording = open_laser_recording(options, config);
+  const FrameSource& drive = *recording.frames;
+  const Annotations annotations = find_annotations(recording, options.labels, config.evaluation);
+  const FrameRange range = parse_frames(options.frames, drive.frame_count());
   const Eigen::AlignedBox3d bounds =
-      options.bounds.empty() ? drive_bounds(*drive, config.bounds) : parse_bounds(options.bounds);
+      options.bounds.empty() ? drive_bounds(drive, config.bounds) : parse_bounds(options.bounds);
   const VoxelGrid grid = make_voxel_grid(bounds, config.detector.map.voxel_m);
   OutputFolder out(options.out);
 
-  Evaluation evaluation{GroundTruth(grid), ObstacleDetector(drive->rig(), config.detector, grid)};
-  build_truth(*drive, labels, config.evaluation, {range, options.common.quiet}, evaluation);
+  Evaluation evaluation{GroundTruth(grid), ObstacleDetector(drive.rig(), config.detector, grid)};
+  build_truth(recording,
+              annotations.boxes_of,
+              config.evaluation,
+              {range, options.common.quiet},
+              evaluation);
   check_truth(evaluation, range);
-  map_and_score(*drive, config.evaluation, {range, options.common.quiet}, evaluation);
+  map_and_score(drive, config.evaluation, {range, options.common.quiet}, evaluation);
 
   EvaluationResult result{
       .version = kVersion,
-      .sequence = sequence_name(options, *drive),
-      .source = drive->name(),
+      .sequence = sequence_name(options, annotations.file, drive),
+      .source = drive.name(),
       .grid = grid,
       .max_range_m = config.evaluation.max_range_m,
       .occupied_cells = static_cast<std::int64_t>(evaluation.truth.occupied_offsets().size()),
@@ -188,7 +182,7 @@ void evaluate(const EvaluateOptions& options) {
       .rows = evaluation.rows,
       .stages = evaluation.clock.times(),
       .pictures = pictures(evaluation, config.evaluation.occupied_probability),
-      .labelled = !options.labels.empty(),
+      .labelled = annotations.known,
       .duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
       .config_yaml = to_yaml(config)};
   write_files(out, evaluation, result, config.evaluation.occupied_probability);
@@ -217,13 +211,13 @@ void add_evaluate(CLI::App& program) {
   command
       ->add_option("--labels",
                    options->labels,
-                   "KITTI tracking labels; laser points in their boxes are no ground truth")
+                   "KITTI tracking labels; laser points in their boxes are no ground truth\n"
+                   "(default: those of the KITTI sequence, the objects of a skyhalo recording)")
       ->type_name("FILE");
-  command
-      ->add_option("--sequence",
-                   options->sequence,
-                   "name of the sequence in tables (default: from the label file)")
-      ->type_name("NNNN");
+  command->get_option("--sequence")
+      ->description(
+          "sequence of a KITTI tracking folder (default: the only one); else the name in tables "
+          "(default: from the label file)");
   command
       ->add_option("--bounds",
                    options->bounds,

@@ -18,30 +18,28 @@ struct ScanCells {
 };
 
 /// None without a scan.
-std::optional<ScanCells> truth_cells(const KittiRawDrive& drive,
-                                     const TrackLabels& labels,
+std::optional<ScanCells> truth_cells(const Recording& recording,
+                                     const BoxesOf& boxes_of,
                                      double max_range_m,
                                      const VoxelGrid& grid,
                                      int frame) {
-  const std::optional<LaserScan> scan = drive.read_scan(frame);
+  const LaserSource& laser = *recording.laser;
+  const std::optional<LaserScan> scan = laser.read_scan(frame);
   if (!scan) {
     return std::nullopt;
   }
-  std::vector<OrientedBox> boxes;
-  for (const TrackedObject& object : labels.objects(frame)) {
-    boxes.push_back(object.box);
-  }
-  const TruthView view{drive.truth_camera(),
-                       drive.T_annotation_laser(),
-                       drive.T_map_body(frame) * drive.T_body_laser(),
+  const std::vector<OrientedBox> boxes = boxes_of(frame);
+  const TruthView view{laser.truth_camera(),
+                       laser.T_annotation_laser(),
+                       recording.frames->T_map_body(frame) * laser.T_body_laser(),
                        max_range_m};
   return ScanCells{occupied_cells(*scan, view, boxes, grid), observed_cells(*scan, view, grid)};
 }
 
 }  // namespace
 
-void build_truth(const KittiRawDrive& drive,
-                 const TrackLabels& labels,
+void build_truth(const Recording& recording,
+                 const BoxesOf& boxes_of,
                  const EvaluationConfig& config,
                  const FrameLoop& loop,
                  Evaluation& evaluation) {
@@ -50,7 +48,7 @@ void build_truth(const KittiRawDrive& drive,
       loop.range,
       bar,
       [&](int frame) {
-        return truth_cells(drive, labels, config.max_range_m, evaluation.truth.grid(), frame);
+        return truth_cells(recording, boxes_of, config.max_range_m, evaluation.truth.grid(), frame);
       },
       [&](int frame, const std::optional<ScanCells>& cells) {
         if (cells) {
@@ -62,7 +60,7 @@ void build_truth(const KittiRawDrive& drive,
       });
 }
 
-void map_and_score(const KittiRawDrive& drive,
+void map_and_score(const FrameSource& source,
                    const EvaluationConfig& config,
                    const FrameLoop& loop,
                    Evaluation& evaluation) {
@@ -70,9 +68,9 @@ void map_and_score(const KittiRawDrive& drive,
   for_each_frame(
       loop.range,
       bar,
-      [&](int frame) { return drive.read(frame); },
+      [&](int frame) { return source.read(frame); },
       [&](int frame, const FrameSet& frames) {
-        evaluation.detector.process(frames, drive.T_map_body(frame), &evaluation.clock);
+        evaluation.detector.process(frames, source.T_map_body(frame), &evaluation.clock);
         const auto cells = evaluation.detector.dense_map().cells();
         const GroundTruth& truth = evaluation.truth;
         const double p_occupied = config.occupied_probability;

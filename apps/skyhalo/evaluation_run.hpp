@@ -3,11 +3,10 @@
 #include <vector>
 
 #include "common_options.hpp"
-#include "skyhalo/dataset/kitti_labels.hpp"
-#include "skyhalo/dataset/kitti_raw.hpp"
 #include "skyhalo/evaluation/ground_truth.hpp"
 #include "skyhalo/evaluation/report.hpp"
 #include "skyhalo/pipeline/obstacle_detector.hpp"
+#include "source.hpp"
 #include "stage_clock.hpp"
 
 namespace skyhalo::app {
@@ -27,15 +26,15 @@ struct FrameLoop {
   bool quiet = false;
 };
 
-/// Fills the ground truth from the laser scans of all frames.
-void build_truth(const KittiRawDrive& drive,
-                 const TrackLabels& labels,
+/// Fills the ground truth from the laser scans of all frames; the recording has a laser.
+void build_truth(const Recording& recording,
+                 const BoxesOf& boxes_of,
                  const EvaluationConfig& config,
                  const FrameLoop& loop,
                  Evaluation& evaluation);
 
 /// Maps the frames one by one and scores the map after each against the complete ground truth.
-void map_and_score(const KittiRawDrive& drive,
+void map_and_score(const FrameSource& source,
                    const EvaluationConfig& config,
                    const FrameLoop& loop,
                    Evaluation& evaluation);

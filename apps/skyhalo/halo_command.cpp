@@ -78,14 +78,13 @@ void refuse_other_pictures(const std::string& folder, const std::set<int>& frame
 }
 
 /// The recording's laser, if it is to be asked.
-const LaserSource* laser_of(const HaloCommand& options, const FrameSource& source) {
-  const auto* const laser = dynamic_cast<const LaserSource*>(&source);
-  if (options.laser && laser == nullptr) {
+const LaserSource* laser_of(const HaloCommand& options, const Recording& recording) {
+  if (options.laser && recording.laser == nullptr) {
     throw input_error(options.source.path,
-                      "has no laser scanner to compare with; expected a KITTI raw drive with "
-                      "velodyne_points/data, or no --laser");
+                      "has no laser scanner to compare with; expected a KITTI drive or sequence "
+                      "with Velodyne scans or a skyhalo recording with laser/, or no --laser");
   }
-  return options.laser ? laser : nullptr;
+  return options.laser ? recording.laser : nullptr;
 }
 
 bool has_poses(const Recording& recording) {
@@ -113,7 +112,7 @@ HaloSettings settings_of(const HaloCommand& options,
   }
   HaloSettings settings{.range = range,
                         .check = {},
-                        .laser = laser_of(options, source),
+                        .laser = laser_of(options, recording),
                         .has_poses = has_poses(recording),
                         .picture_frames = picture_frames(options, range),
                         .quiet = options.common.quiet};
@@ -190,7 +189,7 @@ void add_halo(CLI::App& program) {
       ->type_name("DEG")
       ->capture_default_str();
   command->add_flag(
-      "--laser", options->laser, "compare with the recording's laser scanner (KITTI raw drives)");
+      "--laser", options->laser, "compare with the recording's laser scanner (not EuRoC flights)");
   command->add_option("-o,--out", options->out, "folder for the results")
       ->type_name("DIR")
       ->capture_default_str();

@@ -66,10 +66,11 @@ Recording open_images(const RectifyCommand& options, const Config& config) {
     throw UsageError("--rig: expected the rig file of the cameras that took the two images");
   }
   const OpenedRig opened = open_rig(options.source.rig, options.common, config);
-  return {std::make_unique<ImagePairSource>(options.inputs[0],
-                                            options.inputs[1],
-                                            opened.rig.pairs[find_pair(opened.rig, options.pair)]),
-          opened.T_body_imu};
+  Recording recording;
+  recording.frames = std::make_unique<ImagePairSource>(
+      options.inputs[0], options.inputs[1], opened.rig.pairs[find_pair(opened.rig, options.pair)]);
+  recording.T_body_imu = opened.T_body_imu;
+  return recording;
 }
 
 cv::Rect shrunk(const cv::Rect& mask, int factor) {
@@ -291,14 +292,12 @@ void add_rectify(CLI::App& program) {
   command
       ->add_option("INPUT",
                    options->inputs,
-                   "a recording (KITTI raw drive, EuRoC flight), or a left and a right image")
+                   "a recording (KITTI, EuRoC or skyhalo's own), or a left and a right image")
       ->required()
       ->expected(1, 2)
       ->type_name("SOURCE | LEFT RIGHT");
   add_rig_option(*command, options->source);
-  command->add_option("--format", options->source.format, "take the source for this")
-      ->check(CLI::IsMember({"auto", "kitti-raw", "euroc"}))
-      ->capture_default_str();
+  add_format_options(*command, options->source);
   command->add_option(
       "--pair", options->pair, "name of the pair in the rig (default: the only one)");
   command->add_option("--frames", options->frames, "use only these frames, both included")

@@ -10,7 +10,6 @@
 #include "for_each_frame.hpp"
 #include "run_tiles.hpp"
 #include "skyhalo/dataset/drive_bounds.hpp"
-#include "skyhalo/dataset/kitti_raw.hpp"
 #include "skyhalo/io/map_file.hpp"
 #include "skyhalo/io/map_points.hpp"
 #include "skyhalo/io/octomap_file.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "skyhalo/io/text_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temp_folder.hpp"
 
@@ -78,6 +79,31 @@ TEST(VelodyneFileProperty, EveryPointIsReadBack) {
   for (std::size_t i = 0; i < scan.size(); ++i) {
     EXPECT_EQ(scan[i], Eigen::Vector3f(records[i][0], records[i][1], records[i][2]));
   }
+}
+
+TEST(VelodyneFileTest, WritesRecordsOfFourFloats) {
+  const TempFolder folder;
+  const auto file = folder.path() / "scan.bin";
+  write_velodyne(file, {{{1.0F, -2.0F, 0.5F}, {4.0F, 5.0F, 6.0F}}, {0.25F, 1.0F}});
+  EXPECT_EQ(read_bytes(file), bytes_of({{1.0F, -2.0F, 0.5F, 0.25F}, {4.0F, 5.0F, 6.0F, 1.0F}}));
+  write_velodyne(file, {{{1.0F, -2.0F, 0.5F}}, {}});
+  EXPECT_EQ(read_bytes(file), bytes_of({{1.0F, -2.0F, 0.5F, 0.0F}}));
+  write_velodyne(file, {});
+  EXPECT_EQ(read_bytes(file), "");
+}
+
+TEST(VelodyneFileTest, AScanThatCannotBeReadBackIsNotWritten) {
+  const TempFolder folder;
+  const auto file = folder.path() / "scan.bin";
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(message_of([&] {
+                write_velodyne(file, {{{1.0F, kNan, 0.5F}}, {}});
+              }),
+              HasSubstr("scan.bin: point 0 of the scan is not finite"));
+  EXPECT_THAT(message_of([&] {
+                write_velodyne(file, {{{1.0F, 2.0F, 0.5F}}, {0.1F, 0.2F}});
+              }),
+              HasSubstr("expected a reflectance for each of 1 points, found 2"));
 }
 
 }  // namespace
