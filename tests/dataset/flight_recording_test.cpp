@@ -100,7 +100,7 @@ TEST(FlightRecordingTest, BoxesAreSeenFromTheTruePose) {
   const TempFolder folder;
   FlightFrame frame = testing::bare_frame(0);
   frame.T_map_body = Pose::Identity();
-  frame.T_map_body_true = make_pose(
+  frame.true_pose = make_pose(
       Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
       {10.0, 0.0, 2.0});
   frame.objects = {testing::upright_object(1, {10.0, 8.0, 0.0}, 0.0)};

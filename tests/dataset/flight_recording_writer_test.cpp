@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "skyhalo/dataset/flight_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/temp_folder.hpp"
@@ -28,7 +31,7 @@ bool same_values(const cv::Mat1f& a, const cv::Mat1f& b) {
 void expect_same_frame(const FlightRecording& flight, int i, const FlightFrame& written) {
   EXPECT_EQ(flight.stamp(i), written.images.stamp);
   EXPECT_EQ(flight.T_map_body(i).matrix(), written.T_map_body.matrix());
-  EXPECT_EQ(flight.T_map_body_true(i)->matrix(), written.T_map_body_true->matrix());
+  EXPECT_EQ(flight.true_pose(i)->matrix(), written.true_pose->matrix());
   const FrameSet read = flight.read(i);
   EXPECT_EQ(read.stamp, written.images.stamp);
   for (const std::size_t pair : {0U, 1U}) {
@@ -100,7 +103,7 @@ TEST(FlightRecordingWriterTest, OnlyImagesAndPosesAreNeeded) {
   EXPECT_FALSE(flight.has_sonar());
   EXPECT_FALSE(flight.read_scan(0));
   EXPECT_FALSE(flight.sonar_m(0));
-  EXPECT_FALSE(flight.T_map_body_true(0));
+  EXPECT_FALSE(flight.true_pose(0));
   EXPECT_TRUE(flight.objects(0).empty());
   EXPECT_TRUE(flight.boxes_in_body(0).empty());
   for (const char* const name : {"poses_true.txt", "sonar.csv", "objects.csv", "laser", "truth"}) {
@@ -148,8 +151,8 @@ TEST(FlightRecordingWriterTest, WhatDoesNotFitTheDescriptionIsRefused) {
   EXPECT_THAT(refused([](auto& f) { f.truth.resize(1); }), HasSubstr("of 2 pairs"));
   EXPECT_THAT(refused([](auto& f) { std::swap(f.images.pairs[0], f.images.pairs[1]); }),
               HasSubstr("frame 1: front left image has 64x48 pixels, expected 320x96"));
-  EXPECT_THAT(refused([](auto& f) { f.T_map_body_true = Pose::Identity(); }),
-              HasSubstr("frame 1: T_map_body_true: expected in all frames or in none"));
+  EXPECT_THAT(refused([](auto& f) { f.true_pose = Pose::Identity(); }),
+              HasSubstr("frame 1: true_pose: expected in all frames or in none"));
   EXPECT_THAT(refused([](auto& f) { f.T_map_body.linear() *= 2.0; }), HasSubstr("T_map_body: exp"));
   EXPECT_THAT(refused([](auto& f) { f.scan = testing::some_scan(1); }), HasSubstr("T_body_laser"));
   EXPECT_THAT(refused([](auto& f) { f.sonar_m = 1.0; }), HasSubstr("no sonar"));

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "skyhalo/io/image_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temp_folder.hpp"
@@ -34,6 +36,21 @@ TEST(FrameChecksTest, ImagesMustBeGreyOrColour) {
               ::testing::EndsWith("of 8 bits"));
   EXPECT_THAT(message_of([&] { check_image(cv::Mat(), any, 0, "left"); }),
               HasSubstr("left has 0x0 pixels, expected 8x4 pixels"));
+}
+
+TEST(FrameChecksTest, ScansMustBeFiniteWithAReflectanceForEachPoint) {
+  EXPECT_NO_THROW(check_scan({}, 1));
+  EXPECT_NO_THROW(check_scan({{{1.0F, 2.0F, 3.0F}}, {}}, 1));
+  EXPECT_NO_THROW(check_scan({{{1.0F, 2.0F, 3.0F}}, {0.5F}}, 1));
+  EXPECT_THAT(message_of([] {
+                check_scan({{{1.0F, 2.0F, 3.0F}}, {0.5F, 0.5F}}, 1);
+              }),
+              HasSubstr("frame 1: scan: expected a reflectance for each of 1 points, found 2"));
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(message_of([&] {
+                check_scan({{{1.0F, kNan, 3.0F}}, {}}, 1);
+              }),
+              HasSubstr("frame 1: scan: point 0 is not finite"));
 }
 
 TEST(FrameChecksTest, AnImageOfAnotherSizeIsNamed) {

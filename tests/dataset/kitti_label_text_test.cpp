@@ -58,13 +58,13 @@ TEST(KittiLabelTextTest, ThingsThatAreNotSeenHaveNoLine) {
 }
 
 TEST(KittiLabelTextTest, ABoxThatReachesBehindTheCameraIsCutOff) {
-  const auto region = label_region(label_box(car(), facing_ahead({3.0, 1.0, 0.5})), kCamera);
+  const auto region = label_region(label_box(car(), facing_ahead({1.5, 1.0, 0.5})), kCamera);
   ASSERT_TRUE(region);
   EXPECT_EQ(region->truncated, 2);
   EXPECT_EQ(region->box_px.max().x(), 319.0);
   EXPECT_EQ(region->box_px.max().y(), 95.0);
-  // Its innermost edge at z = 2.5 and x = 2 is as far left as it gets.
-  EXPECT_NEAR(region->box_px.min().x(), 156.0 + 256.0 * 2.0 / 2.5, 1e-9);
+  // Its innermost edge at z = 2.5 and x = 0.5 is as far left as it gets.
+  EXPECT_NEAR(region->box_px.min().x(), 156.0 + 256.0 * 0.5 / 2.5, 1e-9);
 }
 
 TEST(KittiLabelTextProperty, TheBoxIsReadBack) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "skyhalo/calibration/key_value_file.hpp"
+#include "skyhalo/dataset/kitti_labels.hpp"
 #include "skyhalo/dataset/kitti_tracking.hpp"
 #include "support/expect_error.hpp"
 #include "support/temp_folder.hpp"
@@ -176,6 +177,9 @@ TEST(KittiTrackingWriterTest, WhatDoesNotFitTheLayoutIsRefused) {
   bad = setup();
   bad.pair.image_size_px = {};
   EXPECT_THAT(refused(bad), HasSubstr("image size"));
+  bad = setup();
+  bad.T_body_laser.linear() *= 2.0;
+  EXPECT_THAT(refused(bad), HasSubstr("expected finite rigid transforms"));
   EXPECT_THAT(refused(setup(), -1), HasSubstr("0...9999, found -1"));
   EXPECT_THAT(refused(setup(), 10000), HasSubstr("0...9999"));
 
@@ -204,7 +208,7 @@ TEST(KittiTrackingWriterTest, WhatDoesNotFitTheLayoutIsRefused) {
   EXPECT_THAT(frame_refused([](auto& f) {
                 f.scan->points_m[3].y() = std::numeric_limits<float>::infinity();
               }),
-              HasSubstr("point 3 of the scan is not finite"));
+              HasSubstr("frame 0: scan: point 3 is not finite"));
   writer.add(plain_frame());  // goes on from frame 0
   writer.finish();
   EXPECT_EQ(KittiTrackingSequence(folder.path() / "out", "0000").frame_count(), 1);

@@ -51,7 +51,7 @@ inline FlightFrame full_frame(unsigned seed) {
   frame.images.stamp = Timestamp(std::chrono::nanoseconds(1'700'000'000'000'000'001 + seed * 3LL));
   frame.images.pairs = {textured_images(kRectifiedSize, seed), textured_images(kRawSize, seed + 9)};
   frame.T_map_body = some_pose(random, 300.0);
-  frame.T_map_body_true = some_pose(random, 300.0);
+  frame.true_pose = some_pose(random, 300.0);
   frame.scan = some_scan(seed);
   frame.sonar_m = 0.1 * (seed + 1);
   frame.objects = {upright_object(4, {0.1 * seed, -1.0 / 3.0, 1e-7}, 0.3 * seed)};
@@ -66,7 +66,7 @@ inline FlightFrame full_frame(unsigned seed) {
 /// A frame with nothing but images and a pose.
 inline FlightFrame bare_frame(unsigned seed) {
   FlightFrame frame = full_frame(seed);
-  frame.T_map_body_true.reset();
+  frame.true_pose.reset();
   frame.scan.reset();
   frame.sonar_m.reset();
   frame.objects.clear();

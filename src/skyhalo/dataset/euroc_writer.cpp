@@ -140,7 +140,10 @@ std::vector<EurocWriter::Camera> EurocWriter::cameras_of(const PairDescription& 
   }
   for (const Camera& camera : cameras) {
     (void)lens_text(camera.camera.lens);
-    check_rigid(camera.T_body_camera, 0, "T_body_camera");
+    if (!is_rigid(camera.T_body_camera)) {
+      throw Error(ErrorKind::kInput,
+                  "T_body_camera, T_right_left: expected finite rigid transforms");
+    }
   }
   return cameras;
 }

@@ -146,7 +146,7 @@ TruthCamera FlightRecording::truth_camera() const {
 }
 
 std::vector<OrientedBox> FlightRecording::boxes_in_body(int frame) const {
-  const Pose T_body_map = T_map_body_true(frame).value_or(T_map_body(frame)).inverse();
+  const Pose T_body_map = true_pose(frame).value_or(T_map_body(frame)).inverse();
   std::vector<OrientedBox> boxes;
   for (const SceneObject& object : objects(frame)) {
     boxes.push_back(box_of(object, T_body_map * object.T_map_object));
@@ -161,7 +161,7 @@ std::span<const SceneObject> FlightRecording::objects(int frame) const {
   return objects_.at(static_cast<std::size_t>(frame));
 }
 
-std::optional<Pose> FlightRecording::T_map_body_true(int frame) const {
+std::optional<Pose> FlightRecording::true_pose(int frame) const {
   return true_poses_.empty() ? std::nullopt
                              : std::optional(true_poses_.at(static_cast<std::size_t>(frame)));
 }

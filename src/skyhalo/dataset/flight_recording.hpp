@@ -61,8 +61,8 @@ class FlightRecording final : public FrameSource, public LaserSource {
   /// The objects at a frame; none where they were not recorded.
   [[nodiscard]] std::span<const SceneObject> objects(int frame) const;
 
-  /// Where the body really was; none where only measured poses were recorded.
-  [[nodiscard]] std::optional<Pose> T_map_body_true(int frame) const;
+  /// Where the body really was (`T_map_body`); none where only measured poses were recorded.
+  [[nodiscard]] std::optional<Pose> true_pose(int frame) const;
 
   [[nodiscard]] bool has_sonar() const noexcept { return !sonar_m_.empty(); }
 

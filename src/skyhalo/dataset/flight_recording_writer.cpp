@@ -26,6 +26,9 @@ void check_sensors(const FlightFrame& frame, const FlightDescription& descriptio
   if (frame.scan && !description.T_body_laser) {
     throw frame_error(number, "has a scan, but the description no T_body_laser");
   }
+  if (frame.scan) {
+    check_scan(*frame.scan, number);
+  }
   if (frame.sonar_m && !description.has_sonar) {
     throw frame_error(number, "has a sonar range, but the description no sonar");
   }
@@ -38,8 +41,8 @@ FlightDescription checked_description(FlightDescription description) {
   if (description.name.empty()) {
     throw Error(ErrorKind::kInput, "recording: expected a name");
   }
-  if (description.T_body_laser) {
-    check_rigid(*description.T_body_laser, 0, "T_body_laser");
+  if (description.T_body_laser && !is_rigid(*description.T_body_laser)) {
+    throw Error(ErrorKind::kInput, "T_body_laser: expected a finite rigid transform");
   }
   return description;
 }
@@ -82,11 +85,11 @@ void FlightRecordingWriter::check_fits(const FlightFrame& frame) const {
     check_image(images.right, {right_image_size_px(pair)}, number, pair.name + " right image");
   }
   check_rigid(frame.T_map_body, number, "T_map_body");
-  if (number > 0 && frame.T_map_body_true.has_value() != has_true_poses_) {
-    throw frame_error(number, "T_map_body_true: expected in all frames or in none");
+  if (number > 0 && frame.true_pose.has_value() != has_true_poses_) {
+    throw frame_error(number, "true_pose: expected in all frames or in none");
   }
-  if (frame.T_map_body_true) {
-    check_rigid(*frame.T_map_body_true, number, "T_map_body_true");
+  if (frame.true_pose) {
+    check_rigid(*frame.true_pose, number, "true_pose");
   }
   check_sensors(frame, description_, number);
   for (const SceneObject& object : frame.objects) {
@@ -116,8 +119,8 @@ void FlightRecordingWriter::add_rows(const FlightFrame& frame) {
   const std::string row = std::to_string(frame_count_) + "," + stamp_text(frame.images.stamp);
   frames_csv_ += row + "\n";
   poses_ += pose_line(frame.T_map_body);
-  if (frame.T_map_body_true) {
-    true_poses_ += pose_line(*frame.T_map_body_true);
+  if (frame.true_pose) {
+    true_poses_ += pose_line(*frame.true_pose);
     has_true_poses_ = true;
   }
   sonar_csv_ += row + "," + (frame.sonar_m ? exact_number_text(*frame.sonar_m) : "") + "\n";

@@ -30,13 +30,13 @@ struct PairTruth {
 
 /// What was recorded at one moment.
 struct FlightFrame {
-  FrameSet images;                      ///< stamp, and the images of all pairs
-  Pose T_map_body = Pose::Identity();   ///< as measured
-  std::optional<Pose> T_map_body_true;  ///< in all frames or in none
-  std::optional<LaserReturns> scan;     ///< only with a laser scanner
-  std::optional<double> sonar_m;        ///< only with a range finder; none: no echo
-  std::vector<SceneObject> objects{};   ///< upright: of their rotation only the yaw is kept
-  std::vector<PairTruth> truth{};       ///< empty, or one per pair
+  FrameSet images;                     ///< stamp, and the images of all pairs
+  Pose T_map_body = Pose::Identity();  ///< as measured
+  std::optional<Pose> true_pose;       ///< `T_map_body` as it was; in all frames or in none
+  std::optional<LaserReturns> scan;    ///< only with a laser scanner
+  std::optional<double> sonar_m;       ///< only with a range finder; none: no echo
+  std::vector<SceneObject> objects{};  ///< upright: of their rotation only the yaw is kept
+  std::vector<PairTruth> truth{};      ///< empty, or one per pair
 };
 
 /// Writes a recording in skyhalo's own layout, which `FlightRecording` reads; docs/recordings.md

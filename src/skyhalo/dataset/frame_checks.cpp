@@ -19,8 +19,12 @@ Error frame_error(int frame, std::string_view message) {
   return {ErrorKind::kInput, "frame " + std::to_string(frame) + ": " + std::string(message)};
 }
 
+bool is_rigid(const Pose& T) {
+  return T.matrix().allFinite() && is_rotation(T.linear(), kRigidTolerance);
+}
+
 void check_rigid(const Pose& T, int frame, std::string_view what) {
-  if (!T.matrix().allFinite() || !is_rotation(T.linear(), kRigidTolerance)) {
+  if (!is_rigid(T)) {
     throw frame_error(frame, std::string(what) + ": expected a finite rigid transform");
   }
 }
@@ -36,6 +40,20 @@ void check_image(const cv::Mat& image, const ImageWish& wish, int frame, std::st
     throw frame_error(frame,
                       std::string(what) + ": expected a grey or BGR image of 8 bits" +
                           (wish.eight_bit_only ? "" : " or 16"));
+  }
+}
+
+void check_scan(const LaserReturns& scan, int frame) {
+  const std::size_t count = scan.points_m.size();
+  if (!scan.reflectances.empty() && scan.reflectances.size() != count) {
+    throw frame_error(frame,
+                      "scan: expected a reflectance for each of " + std::to_string(count) +
+                          " points, found " + std::to_string(scan.reflectances.size()));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!scan.points_m[i].allFinite()) {
+      throw frame_error(frame, "scan: point " + std::to_string(i) + " is not finite");
+    }
   }
 }
 

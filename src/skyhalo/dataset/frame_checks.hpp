@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/dataset/velodyne_file.hpp"
 #include "skyhalo/geometry/pose.hpp"
 
 namespace skyhalo {
@@ -13,6 +14,9 @@ namespace skyhalo {
 /// An input error of a frame that is to be written: `frame N: message`. Internal to this layer, as
 /// all of this header.
 [[nodiscard]] Error frame_error(int frame, std::string_view message);
+
+/// Whether a transform is finite and rigid.
+[[nodiscard]] bool is_rigid(const Pose& T);
 
 /// Throws `frame_error` naming `what` when the transform is not finite or not rigid.
 void check_rigid(const Pose& T, int frame, std::string_view what);
@@ -26,6 +30,9 @@ struct ImageWish {
 /// Throws `frame_error` naming `what` for an image of another size, of another depth, or with other
 /// than one (grey) or three (BGR) channels.
 void check_image(const cv::Mat& image, const ImageWish& wish, int frame, std::string_view what);
+
+/// Throws `frame_error` for a scan that `write_velodyne` refuses.
+void check_scan(const LaserReturns& scan, int frame);
 
 /// Reads an image. Throws `Error` (input) naming the file when it cannot be read or has another
 /// size.

@@ -34,6 +34,9 @@ KittiTrackingSetup checked_setup(KittiTrackingSetup setup) {
                 "pair '" + pair.name +
                     "': KITTI's layout is for rectified pinhole pairs with an image size");
   }
+  if (!is_rigid(pair.T_body_camera) || !is_rigid(setup.T_body_laser)) {
+    throw Error(ErrorKind::kInput, "T_body_camera, T_body_laser: expected finite rigid transforms");
+  }
   return setup;
 }
 
@@ -107,6 +110,9 @@ void KittiTrackingWriter::add(const KittiTrackingFrame& frame) {
   check_image(frame.images.left, wish, number, "left image");
   check_image(frame.images.right, wish, number, "right image");
   check_rigid(frame.T_map_body, number, "T_map_body");
+  if (frame.scan) {
+    check_scan(*frame.scan, number);
+  }
   const Pose T_left_map = (frame.T_map_body * T_body_left(setup_.pair)).inverse();
   std::string labels;
   for (const SceneObject& object : frame.objects) {
