@@ -26,7 +26,7 @@ fs::path plain_folder(const fs::path& folder) {
   }
   std::error_code status;
   const fs::path whole = fs::weakly_canonical(fs::absolute(folder, status), status);
-  const fs::path plain = whole.filename().empty() ? whole.parent_path() : whole;
+  fs::path plain = whole.filename().empty() ? whole.parent_path() : whole;
   if (status || plain.filename().empty()) {
     throw cannot_write_folder(folder, status ? status.message() : "is no name for a folder");
   }
