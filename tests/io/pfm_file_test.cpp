@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "skyhalo/io/text_file.hpp"
