@@ -219,9 +219,8 @@ void add_evaluate(CLI::App& program) {
           "sequence of a KITTI tracking folder (default: the only one); else the name in tables "
           "(default: from the label file)");
   command
-      ->add_option("--bounds",
-                   options->bounds,
-                   "of the map, in the frame of the first pose (default: follows the drive)")
+      ->add_option(
+          "--bounds", options->bounds, "of the map, in the map frame (default: follows the drive)")
       ->type_name("x0,x1,y0,y1,z0,z1");
   command
       ->add_option(

@@ -9,7 +9,10 @@
 
 namespace skyhalo {
 
-CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string text, std::size_t columns)
+CsvRow::CsvRow(const std::filesystem::path& file,
+               int line,
+               const std::string& text,
+               std::size_t columns)
     : file_(file), line_(line) {
   std::size_t from = 0;
   while (from <= text.size()) {

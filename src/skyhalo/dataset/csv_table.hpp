@@ -15,7 +15,7 @@ namespace skyhalo {
 class CsvRow {
  public:
   /// Throws `Error` (input) with file and line for another number of columns.
-  CsvRow(const std::filesystem::path& file, int line, std::string text, std::size_t columns);
+  CsvRow(const std::filesystem::path& file, int line, const std::string& text, std::size_t columns);
 
   [[nodiscard]] const std::string& text(std::size_t column) const { return fields_.at(column); }
 
