@@ -53,6 +53,7 @@ std::vector<InsReading> read_oxts_table(const std::filesystem::path& file) {
     throw input_error(file, "holds no line; expected one of 30 numbers per frame");
   }
   std::vector<InsReading> readings;
+  readings.reserve(lines.size());
   for (const std::string& line : lines) {
     readings.push_back(parse_oxts(file, static_cast<int>(readings.size()) + 1, line));
   }
