@@ -6,7 +6,7 @@ set -eu
 
 build_packages="
   cmake g++ ninja-build python3
-  libcli11-dev libeigen3-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev libzstd-dev
+  libassimp-dev libcli11-dev libeigen3-dev libembree-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev libzstd-dev
   nlohmann-json3-dev opencv-doc zlib1g-dev"
 test_packages="
   clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-jsonschema python3-yaml
