@@ -56,6 +56,11 @@ class FlightRecordingWriter {
   /// it cannot be written.
   void add(const FlightFrame& frame);
 
+  /// Where to write a further file, for instance `truth/exact.skymap`, that appears with the rest.
+  [[nodiscard]] std::filesystem::path file(const std::filesystem::path& relative) const {
+    return staged_.file(relative);
+  }
+
   /// Makes the recording appear. Throws `Error` (input) without a frame and `Error` (failure) when
   /// it cannot be written or was finished before.
   void finish();

@@ -69,11 +69,22 @@ double wrapped(double angle_rad) {
 LabelBox label_box(const SceneObject& object, const Pose& T_camera_object) {
   // Turned by ry about y, x points to (cos ry, 0, -sin ry).
   const Eigen::Vector3d ahead = T_camera_object.linear().col(0);
-  return {.height_m = object.size_m.z(),
-          .width_m = object.size_m.y(),
-          .length_m = object.size_m.x(),
-          .bottom_center_m = T_camera_object.translation(),
-          .rotation_y_rad = std::atan2(-ahead.z(), ahead.x())};
+  const double rotation_y_rad = std::atan2(-ahead.z(), ahead.x());
+  const Eigen::Matrix3d R_box_camera =
+      Eigen::AngleAxisd(-rotation_y_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const OrientedBox box = box_of(object, T_camera_object);
+  Eigen::AlignedBox3d upright;  // x along the length, y down, z along the width
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    upright.extend(Eigen::Vector3d(R_box_camera * corner_of(box, corner)));
+  }
+  const Eigen::Vector3d size_m = upright.sizes();
+  const Eigen::Vector3d middle_m = upright.center();
+  return {.height_m = size_m.y(),
+          .width_m = size_m.z(),
+          .length_m = size_m.x(),
+          .bottom_center_m = R_box_camera.transpose() *
+                             Eigen::Vector3d(middle_m.x(), upright.max().y(), middle_m.z()),
+          .rotation_y_rad = rotation_y_rad};
 }
 
 std::optional<LabelRegion> label_region(const LabelBox& box, const LabelCamera& camera) {

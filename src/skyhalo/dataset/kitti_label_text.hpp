@@ -19,8 +19,9 @@ struct LabelCamera {
   cv::Size size_px;
 };
 
-/// The values of an object's label (m) where its pose in the camera's frame is known. Its box
-/// stands upright along the camera's y axis and looks where the object's x axis points across it.
+/// The values of an object's label (m) where its pose in the camera's frame is known: the smallest
+/// box that holds the object's, stands upright along the camera's y axis and looks where the
+/// object's x axis points across it. Before a level camera it is the object's own.
 [[nodiscard]] LabelBox label_box(const SceneObject& object, const Pose& T_camera_object);
 
 /// Where a box shows in the image: pixels, edges included.

@@ -33,8 +33,8 @@ struct KittiTrackingFrame {
 /// is the identity. The first pose stands at 49 degrees north, 8.4 degrees east and 116 m; the
 /// map's x points east. Poses relative to the first one read back to 1e-6 m and 1e-9 rad over
 /// kilometres. Velocities, accelerations (with gravity, as an INS measures them) and rates are
-/// differences of poses. A label's box stands upright in the left camera's frame: only the heading
-/// of an object about that camera's y axis is kept.
+/// differences of poses. A label's box stands upright in the left camera's frame, as the layout
+/// wants it, and holds the object's box.
 ///
 /// The files are written to a hidden folder beside `folder` and appear with `finish()`, the
 /// calibration last; without it nothing stays. Used by one thread at a time.
