@@ -15,5 +15,6 @@ void add_sensor_model(CLI::App& program);
 void add_rectify(CLI::App& program);
 void add_rig(CLI::App& program);
 void add_map(CLI::App& program);
+void add_simulate(CLI::App& program);  // with the simulator, as is the demo
 
 }  // namespace skyhalo::app

@@ -44,7 +44,10 @@ int run(int argc, char** argv) {
       "skyhalo");
   program.set_version_flag("--version", std::string("skyhalo ") + skyhalo::kVersion);
   program.require_subcommand(1);
+#ifdef SKYHALO_HAS_SIM
   skyhalo::app::add_demo(program);
+  skyhalo::app::add_simulate(program);
+#endif
   skyhalo::app::add_run(program);
   skyhalo::app::add_evaluate(program);
   skyhalo::app::add_halo(program);

@@ -257,6 +257,10 @@ RigFile read_rig_file(const std::filesystem::path& file) {
   return read_rig(YamlValue::load(file));
 }
 
+RigFile parse_rig(std::string_view text, const std::filesystem::path& name) {
+  return read_rig(YamlValue::parse(text, name));
+}
+
 StereoRig load_rig(const std::filesystem::path& file) {
   const YamlValue document = YamlValue::load(file);
   const RigFile rig = read_rig(document);

@@ -19,6 +19,9 @@ struct RigFile {
 /// line and key for what is missing, unknown, malformed or outside its domain.
 [[nodiscard]] RigFile read_rig_file(const std::filesystem::path& file);
 
+/// The same for the text of a rig file; complaints call it `name`.
+[[nodiscard]] RigFile parse_rig(std::string_view text, const std::filesystem::path& name);
+
 /// The rig of a file, ready for use. Throws as `read_rig_file` and `resolve` do, with file, line
 /// and key.
 [[nodiscard]] StereoRig load_rig(const std::filesystem::path& file);

@@ -28,7 +28,11 @@ YamlValue::YamlValue(std::string file, std::string path, int line, const YAML::N
     : file_(std::move(file)), path_(std::move(path)), line_(line), node_(node) {}
 
 YamlValue YamlValue::load(const std::filesystem::path& file) {
-  const std::string text = without_opencv_directive(read_bytes(file));
+  return parse(read_bytes(file), file);
+}
+
+YamlValue YamlValue::parse(std::string_view bytes, const std::filesystem::path& file) {
+  const std::string text = without_opencv_directive(std::string(bytes));
   if (is_empty(text)) {
     throw input_error(file, "is empty");
   }

@@ -15,12 +15,16 @@
 namespace skyhalo {
 
 /// A value of a YAML or JSON file that knows its file, line and path (`pairs[0].left.size_px`), so
-/// that every complaint about it names them. Internal to this layer and not installed.
+/// that every complaint about it names them. Internal to the layers that read files, and
+/// not installed.
 class YamlValue {
  public:
   /// The document of a file. OpenCV's `%YAML:1.0` in front is passed over. Throws `Error` (input)
   /// when the file cannot be read, is empty or malformed.
   [[nodiscard]] static YamlValue load(const std::filesystem::path& file);
+
+  /// The document of a text that complaints call `name`. Throws likewise.
+  [[nodiscard]] static YamlValue parse(std::string_view bytes, const std::filesystem::path& name);
 
   /// The entry of a map; none when it is absent. Throws `Error` (input) when this is no map or has
   /// the key twice.

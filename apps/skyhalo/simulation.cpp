@@ -1,0 +1,283 @@
+#include "simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "reference_rig_text.hpp"
+#include "skyhalo/base/error.hpp"
+#include "skyhalo/base/number_text.hpp"
+#include "skyhalo/calibration/rig_file.hpp"
+#include "skyhalo/camera/shrunk_camera.hpp"
+#include "skyhalo/geometry/angle.hpp"
+#include "skyhalo/sim/flight_plan.hpp"
+#include "skyhalo/sim/make_scene.hpp"
+#include "skyhalo/sim/mesh_file.hpp"
+#include "skyhalo/sim/path_check.hpp"
+#include "skyhalo/sim/trajectory_text.hpp"
+
+namespace skyhalo::app {
+namespace {
+
+constexpr double kUsualRateHz = 5.0;
+
+std::string scene_list() {
+  std::string list;
+  for (const SceneKind& kind : scene_kinds()) {
+    list += "\n  " + std::string(kind.name) + ": " + std::string(kind.what) +
+            "; difficulty: " + std::string(kind.difficulty);
+  }
+  return list;
+}
+
+bool is_scene_name(const std::string& name) {
+  const auto kinds = scene_kinds();
+  return std::any_of(
+      kinds.begin(), kinds.end(), [&](const SceneKind& kind) { return kind.name == name; });
+}
+
+/// Whether the text can only mean a file.
+bool looks_like_file(const std::string& text) {
+  return text.find('/') != std::string::npos || text.find('.') != std::string::npos ||
+         std::filesystem::exists(text);
+}
+
+UpAxis up_axis(const std::string& name) {
+  if (name == "x") {
+    return UpAxis::kX;
+  }
+  return name == "y" ? UpAxis::kY : UpAxis::kZ;
+}
+
+/// Somewhere to fly where a scene has no route of its own: over the middle, as high as its size
+/// asks for.
+std::vector<Eigen::Vector3d> route_of(const Scene& scene) {
+  if (!scene.route_m.empty()) {
+    return scene.route_m;
+  }
+  throw Error(ErrorKind::kInput,
+              scene.name +
+                  ": this scene has no route of its own; give a trajectory file with "
+                  "--trajectory");
+}
+
+FlightPlan plan_of(const SimulationOptions& options, const Scene& scene, FlightKind kind) {
+  const std::vector<Eigen::Vector3d> route_m = route_of(scene);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point_m : route_m) {
+    box.extend(point_m);
+  }
+  FlightPlan plan;
+  plan.kind = kind;
+  plan.waypoints_m = route_m;
+  plan.is_closed = scene.route_closed;
+  plan.limits.speed_mps = options.speed_mps;
+  plan.hover.position_m = route_m.front();
+  plan.hover.seed = options.seed;
+  plan.orbit.centre_m = box.center();
+  plan.orbit.radius_m = std::max(0.5 * box.sizes().head<2>().minCoeff(), 1.0);
+  plan.orbit.speed_mps = options.speed_mps;
+  return plan;
+}
+
+Trajectory open_trajectory(const SimulationOptions& options, const Scene& scene) {
+  const std::string& name = options.trajectory;
+  const auto kind = flight_kind(name == "route" ? "waypoints" : name);
+  if (kind) {
+    return fly(plan_of(options, scene, *kind));
+  }
+  WaypointOptions waypoints;
+  waypoints.limits.speed_mps = options.speed_mps;
+  return read_trajectory(name, waypoints);
+}
+
+/// Frames and how fast they follow each other.
+void set_frames(const SimulationOptions& options, double duration_s, SimulationConfig& config) {
+  config.rate_hz = kUsualRateHz;
+  if (options.rate_hz > 0.0) {
+    config.rate_hz = options.rate_hz;
+  } else if (options.frames > 1) {
+    config.rate_hz = (options.frames - 1) / duration_s;
+  }
+  const double fit = std::floor(duration_s * config.rate_hz * (1.0 + 1e-9)) + 1.0;
+  if (options.frames > fit) {
+    throw UsageError("--frames " + std::to_string(options.frames) + ": the flight takes " +
+                     number_text("%.1f", duration_s) + " s and has " + number_text("%.0f", fit) +
+                     " frames at " + number_text("%g", config.rate_hz) + " Hz");
+  }
+  config.frames = options.frames > 0 ? options.frames : static_cast<int>(std::min(fit, 1e6));
+}
+
+SimulationConfig config_of(const SimulationOptions& options, double duration_s) {
+  SimulationConfig config;
+  set_frames(options, duration_s, config);
+  config.seed = options.seed;
+  config.look.samples = options.samples;
+  config.laser.range_sigma_m = options.laser_sigma_m;
+  config.laser.seed = options.seed;
+  config.ins.seed = options.seed;
+  config.ins.delay_s = options.ins_delay_s;
+  if (!options.ins_noise.empty()) {
+    config.ins.position_sigma_m = options.ins_noise[0];
+    config.ins.attitude_sigma_rad = rad_from_deg(options.ins_noise[1]);
+  }
+  if (!options.ins_drift.empty()) {
+    config.ins.position_drift_m_per_sqrt_s = options.ins_drift[0];
+    config.ins.yaw_drift_rad_per_sqrt_s = rad_from_deg(options.ins_drift[1]);
+  }
+  config.sonar.T_body_sonar.linear() =
+      Eigen::AngleAxisd(rad_from_deg(90.0), Eigen::Vector3d::UnitY()).toRotationMatrix();
+  config.sonar.seed = options.seed;
+  return config;
+}
+
+std::string text_of(const Approach& approach) {
+  const Eigen::Vector3d& p_m = approach.position_m;
+  return "the trajectory passes through the scene: " + number_text("%.2f", approach.distance_m) +
+         " m from a surface at t = " + number_text("%.2f", approach.t_s) + " s, x " +
+         number_text("%.2f", p_m.x()) + ", y " + number_text("%.2f", p_m.y()) + ", z " +
+         number_text("%.2f", p_m.z()) + " m";
+}
+
+}  // namespace
+
+void add_simulation_options(CLI::App& command, SimulationOptions& options) {
+  command
+      .add_option("--scene",
+                  options.scene,
+                  "a generated scene or a mesh file (OBJ, PLY, glTF). Scenes:" + scene_list())
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  command.add_option("--difficulty", options.difficulty, "of a generated scene, 0 (easy) to 1")
+      ->type_name("X")
+      ->capture_default_str();
+  command.add_option("--unit-m", options.unit_m, "mesh file: length of its unit in metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--up", options.up, "mesh file: the axis that points up")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--trajectory",
+          options.trajectory,
+          "route (the scene's own), hover, orbit, aggressive, or a file: TUM, or CSV with a "
+          "header line out of t_s,x_m,y_m,z_m,yaw_deg,roll_deg,pitch_deg")
+      ->type_name("NAME|FILE")
+      ->capture_default_str();
+  command.add_option("--speed", options.speed_mps, "limit of route, orbit and waypoints (m/s)")
+      ->type_name("MPS")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--body-radius",
+                  options.body_radius_m,
+                  "a trajectory that comes nearer than this to a surface is an error (m)")
+      ->type_name("M")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_flag(
+      "--may-collide", options.may_collide, "fly through surfaces all the same, with a warning");
+  command.add_option("--frames", options.frames, "number of frames (default: all of the flight)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--rate",
+                  options.rate_hz,
+                  "frames per second (default: 5, or what spreads --frames over the flight)")
+      ->type_name("HZ")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--seed", options.seed, "of scene and noise; the same seed, the same flight")
+      ->type_name("K")
+      ->capture_default_str();
+  command.add_option("--samples", options.samples, "rays per pixel: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--ins-noise", options.ins_noise, "standard deviation of each pose: metres and degrees")
+      ->type_name("M,DEG")
+      ->expected(2)
+      ->delimiter(',');
+  command
+      .add_option("--ins-drift",
+                  options.ins_drift,
+                  "random walk of the poses: metres and degrees of heading per square root of a "
+                  "second")
+      ->type_name("M,DEG")
+      ->expected(2)
+      ->delimiter(',');
+  command.add_option("--ins-delay", options.ins_delay_s, "poses are this old (s)")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--laser-sigma", options.laser_sigma_m, "standard deviation of laser ranges (m)")
+      ->type_name("M")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+Scene open_scene(const SimulationOptions& options) {
+  if (!is_scene_name(options.scene) && looks_like_file(options.scene)) {
+    return read_scene(options.scene, {.unit_m = options.unit_m, .up = up_axis(options.up)});
+  }
+  return make_scene(
+      {.name = options.scene, .difficulty = options.difficulty, .seed = options.seed});
+}
+
+RigDescription reference_rig() {
+  return parse_rig(kReferenceRig, "the built-in reference rig").description;
+}
+
+RigDescription at_matched_resolution(const RigDescription& rig, int downscale) {
+  RigDescription small = rig;
+  for (PairDescription& pair : small.pairs) {
+    const int factor = pair.downscale.value_or(downscale);
+    pair.downscale = 1;
+    pair.line_time_s *= factor;  // the same time for the whole image
+    for (cv::Rect& mask : pair.masks_px) {
+      mask = {mask.x / factor,
+              mask.y / factor,
+              (mask.width + factor - 1) / factor,
+              (mask.height + factor - 1) / factor};
+    }
+    if (auto* rectified = std::get_if<RectifiedPairDescription>(&pair.images)) {
+      rectified->model = downscaled(rectified->model, factor);
+      rectified->size_px /= factor;
+      continue;
+    }
+    auto& raw = std::get<RawPairDescription>(pair.images);
+    raw.cameras.left = downscaled(raw.cameras.left, factor);
+    raw.cameras.right = downscaled(raw.cameras.right, factor);
+    if (raw.rectify_to.size_px) {
+      *raw.rectify_to.size_px /= factor;
+    }
+  }
+  return small;
+}
+
+std::unique_ptr<SimulatedFlight> make_flight(const SimulationOptions& options,
+                                             const CommonOptions& common,
+                                             Scene scene,
+                                             StereoRig rig) {
+  Trajectory trajectory = open_trajectory(options, scene);
+  const SimulationConfig config = config_of(options, trajectory.duration_s());
+  auto flight = std::make_unique<SimulatedFlight>(
+      std::move(scene), std::move(trajectory), std::move(rig), config);
+  const auto collision = first_collision(flight->tracer(),
+                                         flight->trajectory(),
+                                         flight->time_s(flight->frame_count() - 1),
+                                         options.body_radius_m);
+  if (collision && options.may_collide) {
+    print_warnings(common, {text_of(*collision)});
+  } else if (collision) {
+    throw Error(
+        ErrorKind::kInput,
+        options.trajectory + ": " + text_of(*collision) + "; --may-collide flies it all the same");
+  }
+  return flight;
+}
+
+}  // namespace skyhalo::app

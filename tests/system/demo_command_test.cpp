@@ -1,0 +1,70 @@
+// The demo through the program, with fewer frames than it has by itself.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "skyhalo/io/text_file.hpp"
+#include "support/program.hpp"
+#include "support/temp_folder.hpp"
+
+namespace skyhalo {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ProgramResult;
+
+TEST(DemoCommandSystem, FliesScoresAndWritesAPageThatOpensOffline) {
+  const testing::TempFolder root;
+  const std::string out = (root.path() / "demo").string();
+  const ProgramResult result = testing::run_program(SKYHALO_PROGRAM,
+                                                    {"demo",
+                                                     "--scene",
+                                                     "tunnel",
+                                                     "--difficulty",
+                                                     "0",
+                                                     "--frames",
+                                                     "4",
+                                                     "--samples",
+                                                     "1",
+                                                     "--out",
+                                                     out,
+                                                     "--json"},
+                                                    root.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("precision"));
+  EXPECT_THAT(result.out, HasSubstr("report.html"));
+  const auto summary = nlohmann::json::parse(read_bytes(out + "/summary.json"));
+  EXPECT_EQ(summary["frame_sets"], 4);
+  EXPECT_EQ(summary["pairs"], 4);
+  for (const char* key : {"precision", "recall", "frame_sets_per_s"}) {
+    EXPECT_GT(summary[key].get<double>(), 0.0) << key;
+  }
+  for (const char* stage : {"rectify", "match", "sphere", "stitch", "map"}) {
+    EXPECT_TRUE(summary["stages"].contains(stage)) << stage;
+  }
+  EXPECT_EQ(nlohmann::json::parse(result.out.substr(result.out.rfind("\n{") + 1))["recall"],
+            summary["recall"]);
+  const std::string page = read_bytes(out + "/report.html");
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+  EXPECT_THAT(page, Not(HasSubstr("SKYHALO_CONTENT")));
+  EXPECT_THAT(read_bytes(out + "/map.ply"), ::testing::StartsWith("ply"));
+  EXPECT_THAT(read_bytes(out + "/overview.png"), HasSubstr("PNG"));
+}
+
+TEST(DemoCommandSystem, AnUnknownSceneLeavesNothing) {
+  const testing::TempFolder root;
+  const std::string out = (root.path() / "demo").string();
+  const ProgramResult result = testing::run_program(
+      SKYHALO_PROGRAM, {"demo", "--scene", "atlantis", "--out", out}, root.path());
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace skyhalo
