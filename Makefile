@@ -8,7 +8,7 @@ BUILD = build/$(PRESET)
 .PHONY: help demo test build lint bench asan tsan fuzz format install clean setup-build setup-test
 
 help:
-	@echo "make demo     the whole way on a real stereo pair; pictures in out/demo"
+	@echo "make demo     a simulated flight through the whole method; then open out/demo/report.html"
 	@echo "make test     all tests, formatting and lint included"
 	@echo "make build    the program: build/release/skyhalo"
 	@echo "make lint     formatting, clang-tidy and the layers' order only"

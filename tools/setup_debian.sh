@@ -7,7 +7,7 @@ set -eu
 build_packages="
   cmake g++ ninja-build python3
   libassimp-dev libcli11-dev libeigen3-dev libembree-dev libhwy-dev liboctomap-dev libopencv-dev libtbb-dev libyaml-cpp-dev libzstd-dev
-  nlohmann-json3-dev opencv-doc zlib1g-dev"
+  nlohmann-json3-dev zlib1g-dev"
 test_packages="
   clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev python3-jsonschema python3-yaml
   g++-aarch64-linux-gnu libbenchmark-dev libgmock-dev libgtest-dev
@@ -44,26 +44,12 @@ require_root() {
   fi
 }
 
-# Slim container images leave out what packages put under /usr/share/doc, and the demo's images are there.
-demo_images=/usr/share/doc/opencv-doc/examples/data
-fetch_demo_images() {
-  [ -e $demo_images/aloeL.jpg ] && [ -e $demo_images/aloeR.jpg ] && return
-  require_root "$demo_images"
-  echo "setup: fetching the demo's images, which this system's dpkg leaves out"
-  folder=$(mktemp -d)
-  trap 'rm -rf "$folder"' EXIT
-  $as_root apt-get update -qq
-  (cd "$folder" && chmod 755 . && apt-get download -qq opencv-doc &&
-    dpkg-deb --fsys-tarfile opencv-doc_*.deb >data.tar && $as_root tar -x -f data.tar -C / "./${demo_images#/}")
-}
-
 missing=
 for package in $wanted; do
   state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
   case $state in installed*) ;; *) missing="$missing $package" ;; esac
 done
 if [ -z "$missing" ]; then
-  fetch_demo_images
   echo "setup: all packages are installed"
   exit 0
 fi
@@ -72,5 +58,4 @@ require_root $missing
 echo "setup: installing$missing"
 $as_root apt-get update -qq
 $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
-fetch_demo_images
 echo "setup: done"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 #include <vector>
 
 #include "skyhalo/dataset/kitti_labels.hpp"
@@ -112,13 +113,9 @@ Agreement agreement(const std::string& name, double laser_sigma_m) {
   const std::vector<std::uint8_t> all(exact.size(), 1);
   found.near =
       static_cast<std::size_t>(tolerant_score({grid, claimed, exact, all}, 0.7).claimed_right);
-  std::printf("%s, sigma %.2f m: %zu of %zu cells (%.4f), %.4f within one, %zu boxes\n",
-              name.c_str(),
-              laser_sigma_m,
-              found.exact,
-              found.cells,
-              found.share(),
-              found.objects);
+  std::cout << name << ", sigma " << laser_sigma_m << " m: " << found.exact << " of " << found.cells
+            << " cells (" << found.share() << "), " << found.near_share() << " within one, "
+            << found.objects << " boxes\n";
   return found;
 }
 
