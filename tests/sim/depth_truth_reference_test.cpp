@@ -186,6 +186,19 @@ TEST(DepthTruthTest, AWallsSphericalDisparityIsTheAngleBetweenTheRays) {
   }
 }
 
+TEST(DepthTruthTest, WhatIsLeftOfTheLeftImageIsSeenByOneCamera) {
+  // f B / z - offset = 3.2 - 10 = -6.8: column 6 would be at -0.8 of the left image, 7 is at 0.2.
+  const PinholePair pair{40.0, 29.5, 21.0, 0.4, 10.0};
+  const Scene scene = wall_at(5.0F);
+  const SceneTracer tracer(scene);
+  const SceneMoment moment(tracer, {0.0, 0.0});
+  const DepthTruth truth = depth_truth(moment, pair, kSizePx, ahead());
+  for (int u = 0; u < kSizePx.width; ++u) {
+    EXPECT_NEAR(truth.disparity_px(21, u), -6.8, 1e-4);
+    EXPECT_EQ(truth.both(21, u), u <= 6 ? 0 : 255) << u;
+  }
+}
+
 TEST(DepthTruthTest, APixelBeyondAQuarterTurnHasNoRay) {
   // Column 0 looks 1.8 rad to the side, which is no direction of a spherical pair.
   const SphericalPair wide{0.06, 0.05, 30.0, 22.0, 0.4};
