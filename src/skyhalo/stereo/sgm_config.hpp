@@ -11,7 +11,7 @@ struct SgmConfig {
   int p2_max = 48;             ///< the same where it has none, >= p2_min, <= 51
   int uniqueness_percent = 2;  ///< by how much the best sum must beat those not beside it, [0, 100]
   double left_right_px = 1.0;  ///< largest difference in the left-right check, [0, 256]
-  int texture_min_grey = 8;    ///< least range of grey within 9 x 9 px, [0, 255]; 0: no check
+  int texture_min_grey = 2;    ///< least range of grey within 9 x 9 px, [0, 255]; 0: no check
   int repetition_px = 76;      ///< pixels of 9 x 9 that look repeated in the range and so make one
                                ///< unsure, [1, 82]; 82: no check
   int median_passes = 3;       ///< how often the 5 x 5 median is taken, [0, 10]
