@@ -30,6 +30,7 @@ Config demo_config() {
   Config config;
   config.detector.sphere.depth.kind = DepthRuleKind::kMean;
   config.detector.sphere.bounds.step_rad = rad_from_deg(0.5);
+  config.detector.matching.matcher.sgm.texture_min_grey = 8;
   return config;
 }
 
@@ -90,7 +91,8 @@ void add_demo(CLI::App& program) {
       "demo",
       "a simulated flight of the reference platform through the whole method, scored against the\n"
       "exact map; writes report.html, summary.json, map.ply and overview.png\n"
-      "It takes directions of half a degree and their mean ranges; --config replaces that.");
+      "It takes sphere.step_deg=0.5, sphere.rule=mean, sgm.texture_min_grey=8; --config replaces "
+      "them.");
   add_simulation_options(*command, options->simulation);
   command
       ->add_option("--rig",

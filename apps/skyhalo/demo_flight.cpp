@@ -34,7 +34,7 @@ cv::Mat3b coloured(const cv::Mat1b& grey) {
 
 /// The local map as a map with bounds, for pictures.
 DenseMap copy_of(const LocalMap& map) {
-  const CellBox bounds = map.bounds();
+  const CellBox& bounds = map.bounds();
   DenseMap copy({map.lattice().corner_m(bounds.min), map.lattice().voxel_m, bounds.size()});
   for (std::int64_t i = 0; i < copy.grid().cell_count(); ++i) {
     copy.at(i) = map.at(Eigen::Vector3i(copy.grid().cell_at(i) + bounds.min));
@@ -174,8 +174,14 @@ void DemoFlight::keep_maps() {
   pictures_.push_back(
       {"Global map from above, colour is height", top_picture(map(), p_occupied, kMapCellPx)});
   pictures_.push_back({"What is there and was seen within 15 m", truth_picture(truth, kMapCellPx)});
+  DenseMap counted = map();
+  for (std::int64_t i = 0; i < counted.grid().cell_count(); ++i) {
+    if (exact_.seen()[static_cast<std::size_t>(i)] == 0) {
+      counted.at(i) = kUnknown;
+    }
+  }
   pictures_.push_back({"Map against truth: found (green), only claimed (orange), missed (blue)",
-                       comparison_picture(map(), truth, p_occupied, kMapCellPx)});
+                       comparison_picture(counted, truth, p_occupied, kMapCellPx)});
   pictures_.push_back({"Local map at the end, 8 by 8 m about the drone",
                        top_picture(copy_of(local_map_), p_occupied, 8 * kMapCellPx)});
 }

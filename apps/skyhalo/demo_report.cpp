@@ -73,11 +73,11 @@ std::string tiles(const json& summary) {
          "</section>\n";
 }
 
-std::string stage_table(const json& summary) {
+std::string stage_table(const std::vector<StageTimes>& stages) {
   std::string rows;
-  for (const auto& [stage, times] : summary["stages"].items()) {
-    rows += "<tr><td>" + escaped(stage) + "</td><td>" + fixed(times["p50_ms"].get<double>(), 2) +
-            "</td><td>" + fixed(times["p95_ms"].get<double>(), 2) + "</td></tr>\n";
+  for (const StageTimes& times : stages) {
+    rows += "<tr><td>" + escaped(times.stage) + "</td><td>" + fixed(times.p50_ms, 2) + "</td><td>" +
+            fixed(times.p95_ms, 2) + "</td></tr>\n";
   }
   return "<table><tr><th>stage</th><th>median ms</th><th>95 % ms</th></tr>\n" + rows + "</table>\n";
 }
@@ -194,7 +194,7 @@ std::string demo_page(const DemoFlight& demo, const json& summary, const std::st
       escaped(summary["version"].get<std::string>()) + ".</p>\n" + tiles(summary) + charts(demo) +
       "<h2>Times</h2>\n<p>Rectify, match and sphere: one pair; stitch and map: all "
       "together.</p>\n" +
-      stage_table(summary) +
+      stage_table(demo.stages()) +
       "<h2>Disparities</h2>\n<p>Against the exact ones, where both cameras see the point.</p>\n" +
       disparity_table(demo) +
       "<h2>Pictures</h2>\n<p>From the middle of the flight; maps at its "

@@ -65,6 +65,21 @@ PairDescription rectified(const PairDescription& pair, const StereoPair& resolve
   return other;
 }
 
+/// The pairs of a rig that fit the format, and have the name, if there is one.
+std::vector<PairDescription> fitting(ExportFormat format,
+                                     const RigDescription& rig,
+                                     const std::string& name) {
+  const StereoRig resolved = resolve(rig);
+  std::vector<PairDescription> pairs;
+  for (std::size_t i = 0; i < resolved.pairs.size(); ++i) {
+    if (fits(format, resolved.pairs[i]) && (name.empty() || resolved.pairs[i].name == name)) {
+      pairs.push_back(format == ExportFormat::kEuroc ? rig.pairs[i]
+                                                     : rectified(rig.pairs[i], resolved.pairs[i]));
+    }
+  }
+  return pairs;
+}
+
 Eigen::Vector3d left_eye_m(const StereoPair& pair) {
   return pair.T_body_camera * Eigen::Vector3d(-baseline_m(pair.model), 0.0, 0.0);
 }
@@ -81,8 +96,10 @@ LaserReturns returns_of(const std::vector<LaserReturn>& scan) {
 /// What a pair should find, as it is written.
 PairTruth truth_of(const SimulatedFlight& flight, int frame, std::size_t pair, int downscale) {
   DepthTruth truth = flight.truth(frame, pair, downscale);
-  truth.range_m.setTo(std::numeric_limits<float>::quiet_NaN(),
-                      truth.range_m == std::numeric_limits<float>::infinity());
+  std::replace(truth.range_m.begin(),
+               truth.range_m.end(),
+               std::numeric_limits<float>::infinity(),
+               std::numeric_limits<float>::quiet_NaN());
   return {truth.disparity_px, truth.range_m};
 }
 
@@ -201,15 +218,7 @@ RigDescription rig_for(ExportFormat format,
             .T_body_imu = Pose::Identity(),
             .pairs = {format == ExportFormat::kEuroc ? euroc_pair() : kitti_pair()}};
   }
-  const StereoRig resolved = resolve(*rig);
-  std::vector<PairDescription> chosen;
-  for (std::size_t i = 0; i < resolved.pairs.size(); ++i) {
-    if (fits(format, resolved.pairs[i]) && (pair.empty() || resolved.pairs[i].name == pair)) {
-      chosen.push_back(format == ExportFormat::kEuroc
-                           ? rig->pairs[i]
-                           : rectified(rig->pairs[i], resolved.pairs[i]));
-    }
-  }
+  std::vector<PairDescription> chosen = fitting(format, *rig, pair);
   if (chosen.empty()) {
     throw UsageError(pair.empty() ? "--rig: no pair fits this format; KITTI's needs a pinhole one"
                                   : "--pair " + pair +

@@ -141,9 +141,7 @@ std::string text_of(const Approach& approach) {
          number_text("%.2f", p_m.z()) + " m";
 }
 
-}  // namespace
-
-void add_simulation_options(CLI::App& command, SimulationOptions& options) {
+void add_scene_options(CLI::App& command, SimulationOptions& options) {
   command
       .add_option("--scene",
                   options.scene,
@@ -159,6 +157,9 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options) {
   command.add_option("--up", options.up, "mesh file: the axis that points up")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->capture_default_str();
+}
+
+void add_flight_options(CLI::App& command, SimulationOptions& options) {
   command
       .add_option(
           "--trajectory",
@@ -195,6 +196,9 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options) {
   command.add_option("--samples", options.samples, "rays per pixel: 1, 4, 9 or 16")
       ->check(CLI::IsMember({1, 4, 9, 16}))
       ->capture_default_str();
+}
+
+void add_sensor_options(CLI::App& command, SimulationOptions& options) {
   command
       .add_option(
           "--ins-noise", options.ins_noise, "standard deviation of each pose: metres and degrees")
@@ -217,6 +221,14 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options) {
       ->type_name("M")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+}  // namespace
+
+void add_simulation_options(CLI::App& command, SimulationOptions& options) {
+  add_scene_options(command, options);
+  add_flight_options(command, options);
+  add_sensor_options(command, options);
 }
 
 Scene open_scene(const SimulationOptions& options) {

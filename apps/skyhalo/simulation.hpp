@@ -23,10 +23,10 @@ struct SimulationOptions {
   bool may_collide = false;
   std::uint64_t seed = 1;
   int samples = 4;
-  int frames = 0;                 ///< 0: all of the flight
-  double rate_hz = 0.0;           ///< 0: 5 per second, or what spreads `frames` over the flight
-  std::vector<double> ins_noise{}; ///< m, deg
-  std::vector<double> ins_drift{}; ///< m, deg per square root of a second
+  int frames = 0;                   ///< 0: all of the flight
+  double rate_hz = 0.0;             ///< 0: 5 per second, or what spreads `frames` over the flight
+  std::vector<double> ins_noise{};  ///< m, deg
+  std::vector<double> ins_drift{};  ///< m, deg per square root of a second
   double ins_delay_s = 0.0;
   double laser_sigma_m = 0.02;
 };

@@ -187,19 +187,6 @@ TEST(ExactOccupancyReference, FacesOnTheLatticeFollowTheHalfOpenCells) {
   EXPECT_GT(met, 400);
 }
 
-TEST(ExactOccupancyReference, CornersOnTheLatticeFollowTheHalfOpenCells) {
-  const VoxelGrid grid{Vector3d(-1.0, 0.5, 2.0), 0.5, {6, 6, 6}};
-  for (const NaivePolygon& triangle : lattice_triangles(grid)) {
-    for (std::int64_t offset = 0; offset < grid.cell_count(); ++offset) {
-      const Vector3i cell = grid.cell_at(offset);
-      ASSERT_EQ(meets_cell(columns_of(triangle), grid, cell),
-                naive_meets_half_open(triangle, naive_cube(grid, cell)))
-          << cell.transpose() << " of\n"
-          << columns_of(triangle);
-    }
-  }
-}
-
 TEST(ExactOccupancyReference, SingleCellsAgree) {
   std::mt19937 rng(39);
   int met = 0;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -56,22 +57,27 @@ class SimulateCommandSystem : public ::testing::Test {
     return testing::run_program(SKYHALO_PROGRAM, arguments, root.path());
   }
 
-  /// A flight through the room into `out`.
+  /// A flight through the room into `out`, where `more` does not say otherwise.
   [[nodiscard]] ProgramResult simulate(const Arguments& more) const {
-    return run(Arguments{"simulate",
-                         "--scene",
-                         at("room.obj"),
-                         "--rig",
-                         at("rig.yaml"),
-                         "--trajectory",
-                         at("path.csv"),
-                         "--frames",
-                         "3",
-                         "--samples",
-                         "1",
-                         "--out",
-                         at("out")} +
-               more);
+    const Arguments usual{"--scene",
+                          at("room.obj"),
+                          "--rig",
+                          at("rig.yaml"),
+                          "--trajectory",
+                          at("path.csv"),
+                          "--frames",
+                          "3",
+                          "--samples",
+                          "1",
+                          "--out",
+                          at("out")};
+    Arguments arguments{"simulate"};
+    for (std::size_t i = 0; i < usual.size(); i += 2) {
+      if (std::find(more.begin(), more.end(), usual[i]) == more.end()) {
+        arguments = arguments + Arguments{usual[i], usual[i + 1]};
+      }
+    }
+    return run(arguments + more);
   }
 
   void expect_bad_input(const Arguments& more, const std::string& words) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "skyhalo/base/for_each_index.hpp"
+#include "skyhalo/sim/pair_ray.hpp"
 
 namespace skyhalo {
 
@@ -37,7 +38,7 @@ CameraRays::CameraRays(const PairModel& pair, const cv::Size& size_px, bool left
   const auto* pinhole = std::get_if<PinholePair>(&pair);
   const double shift_px = left && pinhole != nullptr ? pinhole->disparity_offset_px : 0.0;
   fill([&](const Eigen::Vector2d& corner_px) {
-    return std::optional(ray_of(pair, corner_px.x() + shift_px, corner_px.y()));
+    return std::optional(ray_or_zero(pair, {corner_px.x() + shift_px, corner_px.y()}));
   });
 }
 

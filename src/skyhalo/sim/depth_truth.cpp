@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skyhalo/base/for_each_index.hpp"
+#include "skyhalo/sim/pair_ray.hpp"
 
 namespace skyhalo {
 namespace {
@@ -26,11 +27,9 @@ class TruthRow {
     hits_.resize(cols);
     for (std::size_t col = 0; col < cols; ++col) {
       const Eigen::Vector3d direction =
-          ray_of(pair_, static_cast<double>(col), static_cast<double>(row));
+          ray_or_zero(pair_, {static_cast<double>(col), static_cast<double>(row)});
       rays_[col] = {T_scene_camera_.translation().cast<float>(),
-                    direction.allFinite()
-                        ? Eigen::Vector3f((T_scene_camera_.linear() * direction).cast<float>())
-                        : Eigen::Vector3f::Zero(),
+                    (T_scene_camera_.linear() * direction).cast<float>(),
                     0.5F};
     }
     moment_.trace(rays_, hits_);
@@ -54,7 +53,8 @@ class TruthRow {
     const Eigen::Vector3d point_m = static_cast<double>(hit.range_m) * ray_of(pair_, col, row);
     const double disparity_px = project(pair_, point_m).z();
     truth.disparity_px(row, col) = static_cast<float>(disparity_px);
-    if (!(col + disparity_px <= truth.range_m.cols - 1.0)) {  // beside the left image
+    const double left_u_px = col + disparity_px;
+    if (!(left_u_px >= 0.0 && left_u_px <= truth.range_m.cols - 1.0)) {  // beside the left image
       ray.direction.setZero();
       return;
     }

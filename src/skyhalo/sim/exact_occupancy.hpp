@@ -10,7 +10,8 @@
 namespace skyhalo {
 
 /// Whether a triangle (three corners, m) and a cell of a grid have a point in common: the cell's
-/// lower sides belong to it, its upper ones do not (separating axes, Akenine-Moeller 2001).
+/// lower sides belong to it, its upper ones do not (separating axes, Akenine-Moeller 2001). A
+/// triangle that only touches the cell's surface in one point may count either way.
 [[nodiscard]] bool meets_cell(const Eigen::Matrix3d& corners_m,
                               const VoxelGrid& grid,
                               const Eigen::Vector3i& cell) noexcept;

@@ -14,7 +14,7 @@ struct InsErrorConfig {
   double position_sigma_m = 0.0;             ///< of each axis, new with each pose
   double attitude_sigma_rad = 0.0;           ///< of each axis, new with each pose
   double position_drift_m_per_sqrt_s = 0.0;  ///< random walk of each axis
-  double yaw_drift_rad_per_sqrt_s = 0.0;     ///< random walk of the heading
+  double yaw_drift_rad_per_sqrt_s = 0.0;     ///< random walk of the heading alone
   double delay_s = 0.0;                      ///< the pose is that of so long ago, 0...10
   std::uint64_t seed = 1;
 };
@@ -22,8 +22,8 @@ struct InsErrorConfig {
 /// Throws `Error` (input) naming what is outside its domain.
 void check(const InsErrorConfig& config);
 
-/// Poses as they are measured. Drift begins with none at time 0 and turns and moves all that comes
-/// later.
+/// Poses as they are measured. Drift begins with none at time 0. Position and heading drift each on
+/// their own, as those of an INS whose position is aided: a wrong heading does not bend the way.
 class InsError {
  public:
   /// For times from 0 to `duration_s`. Throws as `check` does.

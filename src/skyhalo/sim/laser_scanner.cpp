@@ -29,6 +29,7 @@ std::vector<LaserReturn> fire(const SceneMoment& moment,
   const Eigen::Matrix3f R_scene_laser = T_scene_laser.linear().cast<float>();
   const Eigen::Vector3f position_m = T_scene_laser.translation().cast<float>();
   std::vector<SceneRay> rays;
+  rays.reserve(beams.size());
   for (const Eigen::Vector3f& beam : beams) {
     rays.push_back({position_m, R_scene_laser * beam, 0.5F});
   }
@@ -79,6 +80,7 @@ std::vector<LaserReturn> scan(const SceneMoment& moment,
     const double turned = (static_cast<double>(i) + 0.5) / config.azimuths - 0.5;  // -0.5 ... 0.5
     const double azimuth_rad = -2.0 * std::numbers::pi * turned;  // clockwise, as it spins
     std::vector<Eigen::Vector3f> beams;
+    beams.reserve(elevations_rad.size());
     for (const double elevation_rad : elevations_rad) {
       beams.push_back(Eigen::Vector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
                                       std::cos(elevation_rad) * std::sin(azimuth_rad),

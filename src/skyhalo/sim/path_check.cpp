@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace skyhalo {
 namespace {
@@ -21,6 +22,26 @@ bool is_cut(const SceneMoment& moment, const Eigen::Vector3d& from_m, const Eige
   return hit.object == SceneHit::kFixed;
 }
 
+/// The moments at which a path is looked at: every 10 ms, and between them wherever it went on by
+/// more than the step.
+std::vector<double> moments_s(const Trajectory& trajectory, double end_s) {
+  std::vector<double> moments{0.0};
+  const auto at_m = [&](double t_s) -> Eigen::Vector3d {
+    return trajectory.T_map_body(t_s).translation();
+  };
+  const auto steps = static_cast<int>(std::ceil(end_s / kStepS));
+  for (int i = 1; i <= steps; ++i) {
+    const double from_s = (i - 1) * kStepS;
+    const double to_s = std::min(i * kStepS, end_s);
+    const int pieces =
+        std::max(1, static_cast<int>(std::ceil((at_m(to_s) - at_m(from_s)).norm() / kStepM)));
+    for (int piece = 1; piece <= pieces; ++piece) {
+      moments.push_back(from_s + (to_s - from_s) * piece / pieces);
+    }
+  }
+  return moments;
+}
+
 }  // namespace
 
 std::optional<Approach> first_collision(const SceneTracer& tracer,
@@ -28,20 +49,20 @@ std::optional<Approach> first_collision(const SceneTracer& tracer,
                                         double until_s,
                                         double body_radius_m) {
   const SceneMoment moment(tracer, {});
-  const double end_s = std::min(until_s, trajectory.duration_s());
-  const auto steps = static_cast<int>(std::ceil(end_s / kStepS)) + 1;
   std::optional<Approach> nearest;
-  Eigen::Vector3d asked_m = Eigen::Vector3d::Constant(1e30);
-  for (int i = 0; i < steps; ++i) {
-    const double t_s = std::min(i * kStepS, end_s);
+  Eigen::Vector3d asked_m = trajectory.T_map_body(0.0).translation();
+  bool first = true;
+  for (const double t_s : moments_s(trajectory, std::min(until_s, trajectory.duration_s()))) {
     const Eigen::Vector3d position_m = trajectory.T_map_body(t_s).translation();
-    if (i > 0 && (position_m - asked_m).norm() < kStepM && i + 1 < steps) {
-      continue;  // hardly moved
+    const double moved_m = (position_m - asked_m).norm();
+    if (!first && moved_m == 0.0) {
+      continue;
     }
-    const bool cut = i > 0 && is_cut(moment, asked_m, position_m);
-    asked_m = position_m;
+    const bool cut = is_cut(moment, asked_m, position_m);
     const double distance_m = cut ? 0.0 : tracer.clearance_m(position_m, body_radius_m);
-    if (!(distance_m < body_radius_m)) {
+    first = false;
+    asked_m = position_m;
+    if (!cut && !(distance_m < body_radius_m)) {
       if (nearest) {
         return nearest;  // the first approach is over
       }

@@ -28,9 +28,11 @@ std::vector<Sample> samples_of(int count) {
   }
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   std::vector<Sample> samples;
+  samples.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
+    const int row = i / side;
     samples.push_back({(static_cast<float>(i % side) + 0.5F) / static_cast<float>(side),
-                       (static_cast<float>(i / side) + 0.5F) / static_cast<float>(side),
+                       (static_cast<float>(row) + 0.5F) / static_cast<float>(side),
                        (i + 0.5) / count});
   }
   return samples;
@@ -40,7 +42,7 @@ std::vector<Sample> samples_of(int count) {
 struct CameraAt {
   Eigen::Matrix3f R_scene_camera;
   Eigen::Vector3f position_m;
-  float time;  // share of the scene's moment
+  float time = 0.0F;  // share of the scene's moment
 };
 
 double row_time_s(int row, int rows, const CameraShot& shot) noexcept {
@@ -138,7 +140,7 @@ std::uint8_t digitised(float white_share, std::uint64_t bits, const CameraLook& 
     const auto read = static_cast<float>(look.read_electrons);
     value += gaussian(bits) * std::sqrt(value * full + read * read) / full;
   }
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -45,7 +44,7 @@ void fill(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::span<
   if (buffer == nullptr) {
     throw Error(ErrorKind::kFailure, "ray tracer: not enough memory for the scene");
   }
-  std::memcpy(buffer, items.data(), items.size_bytes());
+  std::copy(items.begin(), items.end(), static_cast<Item*>(buffer));
 }
 
 Tree tree_of(RTCDevice device, const TriangleMesh& mesh) {
@@ -92,7 +91,7 @@ RTCRayHit8 packet_of(const SceneRay* rays,
                      std::size_t count,
                      float max_range_m,
                      std::array<int, kPacket>& valid) noexcept {
-  RTCRayHit8 packet;
+  RTCRayHit8 packet;  // NOLINT(*-member-init): what Embree reads is filled below
   for (std::size_t i = 0; i < kPacket; ++i) {
     const SceneRay& ray = rays[std::min(i, count - 1)];
     valid[i] = i < count && ray.direction.squaredNorm() > 0.5F ? -1 : 0;
@@ -214,7 +213,7 @@ double SceneTracer::clearance_m(const Eigen::Vector3d& point_m, double max_m) co
   query.y = search.point_m.y();
   query.z = search.point_m.z();
   query.radius = radius_m;
-  RTCPointQueryContext context;
+  RTCPointQueryContext context{};
   rtcInitPointQueryContext(&context);
   const bool found = rtcPointQuery(trees_->fixed.get(), &query, &context, take_nearer, &search);
   return found ? std::sqrt(static_cast<double>(search.nearest_m2))
@@ -260,7 +259,7 @@ void SceneMoment::trace(std::span<const SceneRay> rays,
     const std::size_t count = std::min(kPacket, rays.size() - first);
     alignas(32) std::array<int, kPacket> valid{};
     RTCRayHit8 packet = packet_of(rays.data() + first, count, max_range_m, valid);
-    RTCIntersectContext context;
+    RTCIntersectContext context{};
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect8(valid.data(), tree, &context, &packet);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skyhalo/camera/pair_model.hpp"
+#include "skyhalo/geometry/ray_walk.hpp"
 #include "skyhalo/geometry/voxel_grid.hpp"
 #include "skyhalo/sim/scene_tracer.hpp"
 
@@ -35,6 +36,8 @@ class SeenCells {
   [[nodiscard]] std::span<const std::uint8_t> seen() const noexcept { return seen_; }
 
  private:
+  void look_along(const SceneMoment& moment, const Ray& way, double max_range_m, bool mark_way);
+
   VoxelGrid grid_;
   std::vector<std::uint8_t> seen_;
 };

@@ -86,9 +86,9 @@ SimulatedFlight::SimulatedFlight(Scene scene,
     const Pose T_cam_left =
         make_pose(Eigen::Matrix3d::Identity(), {-baseline_m(pair.model), 0.0, 0.0});
     if (pair.raw) {
-      const Pose T_cam_left_raw = T_cam_left * Pose(pair.raw->R_left_cam.transpose());
+      const Pose T_cam_raw = T_cam_left * Pose(pair.raw->R_left_cam.transpose());
       cameras_.push_back({CameraRays(pair.raw->left),
-                          pair.T_body_camera * T_cam_left_raw,
+                          pair.T_body_camera * T_cam_raw,
                           pair.line_time_s,
                           config_.look});
       cameras_.push_back({CameraRays(pair.raw->right),

@@ -93,7 +93,7 @@ class SimulatedFlight final : public FrameSource {
   struct Camera {
     CameraRays rays;
     Pose T_body_raw;
-    double line_time_s;
+    double line_time_s = 0.0;
     CameraLook look;
   };
 

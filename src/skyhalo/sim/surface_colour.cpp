@@ -116,7 +116,7 @@ Colour SurfaceColour::of(const SceneRay& ray, const SceneHit& hit, float pixel_r
   if (material.variation > 0.0F) {
     colour *= brightness_of(hit.triangle, material.variation);
   }
-  const Colour seen = colour.cwiseProduct(light_at(point_m, hit.normal));
+  Colour seen = colour.cwiseProduct(light_at(point_m, hit.normal));
   if (material.mirror <= 0.0F) {
     return seen;
   }

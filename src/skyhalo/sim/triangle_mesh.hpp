@@ -19,8 +19,8 @@ struct TriangleMesh {
   std::vector<std::uint16_t> materials;                 ///< of each triangle, by index
 };
 
-/// Adds a mesh, moved by `T_whole_part`, to another one. A mesh with and one without places in the
-/// texture may meet: those of the latter are zero.
+/// Adds a mesh, moved by `T_whole_part`, to another one, not to itself. A mesh with and one without
+/// places in the texture may meet: those of the latter are zero.
 void append(TriangleMesh& whole, const TriangleMesh& part, const Pose& T_whole_part);
 
 /// The smallest box round the vertices (m); empty without any.
