@@ -13,6 +13,7 @@
 #include "skyhalo/sim/make_scene.hpp"
 #include "skyhalo/sim/simulated_flight.hpp"
 #include "skyhalo/sim/waypoint_flight.hpp"
+#include "support/sanitised.hpp"
 #include "support/small_rigs.hpp"
 
 namespace skyhalo {
@@ -28,7 +29,7 @@ struct DisparityErrors {
 
 /// With this limit of texture.
 DisparityErrors errors_in(const SceneWish& wish, int texture_min_grey) {
-  constexpr int kFrames = 3;
+  constexpr int kFrames = testing::rounds(3);
   Scene scene = make_scene(wish);
   Trajectory trajectory = fly_waypoints(scene.route_m, {}, scene.route_closed);
   SimulationConfig simulation;
