@@ -48,9 +48,9 @@ DemoFlight::DemoFlight(const SimulatedFlight& flight, const Config& config)
     : flight_(flight),
       config_(config),
       exact_(flight, config.detector.map.voxel_m),
-      detector_(flight.rig(), config.detector, exact_.grid()),
+      detector_(std::make_unique<ObstacleDetector>(flight.rig(), config.detector, exact_.grid())),
       local_map_(make_local_map(config.detector.map)),
-      local_integrator_(integration_config(config.detector)),
+      local_integrator_(std::make_unique<ScanIntegrator>(integration_config(config.detector))),
       errors_px_(flight.rig().pairs.size()),
       measured_share_(flight.rig().pairs.size(), 0.0) {}
 
@@ -64,15 +64,15 @@ double DemoFlight::pixels_per_frame() const noexcept {
 
 TolerantScore DemoFlight::score() const {
   return tolerant_score(
-      {exact_.grid(), detector_.dense_map().cells(), exact_.occupied(), exact_.seen()},
+      {exact_.grid(), detector_->dense_map().cells(), exact_.occupied(), exact_.seen()},
       config_.evaluation.occupied_probability);
 }
 
 void DemoFlight::process(int frame, const FrameSet& frames) {
   const Pose T_map_body = flight_.T_map_body(frame);
-  detector_.process(frames, T_map_body, &clock_);
+  detector_->process(frames, T_map_body, &clock_);
   local_map_.follow(T_map_body.translation());
-  local_integrator_.integrate(detector_.scan(), T_map_body, local_map_);
+  local_integrator_->integrate(detector_->scan(), T_map_body, local_map_);
 }
 
 void DemoFlight::compare_disparities(int frame) {
@@ -81,7 +81,7 @@ void DemoFlight::compare_disparities(int frame) {
     const int factor =
         flight_.rig().pairs[i].downscale.value_or(config_.detector.matching.downscale);
     const DepthTruth truth = flight_.truth(frame, i, factor);
-    const cv::Mat1f& disparity = detector_.perception(i).disparity;
+    const cv::Mat1f& disparity = detector_->perception(i).disparity;
     std::size_t measured = 0;
     for (int row = 0; row < disparity.rows; ++row) {
       for (int col = 0; col < disparity.cols; ++col) {
@@ -151,13 +151,13 @@ void DemoFlight::keep_view(const FrameSet& frames, const Eigen::Matrix3d& R_map_
     pictures_.push_back({"Raw right image" + of, images.right});
     pictures_.push_back({"Rectified right image" + of, coloured(rectified.right)});
     pictures_.push_back(
-        {"Disparity, bright is near" + of, disparity_picture(detector_.perception(i).disparity)});
+        {"Disparity, bright is near" + of, disparity_picture(detector_->perception(i).disparity)});
   }
-  const int halo_cell_px = std::max(1, 1440 / detector_.halo().geometry().cols);
+  const int halo_cell_px = std::max(1, 1440 / detector_->halo().geometry().cols);
   pictures_.push_back({"Halo: the nearest in each direction, all pairs stitched",
-                       halo_picture(detector_.halo(), halo_cell_px)});
+                       halo_picture(detector_->halo(), halo_cell_px)});
   pictures_.push_back({"Halo from above, nose up, to 15 m",
-                       halo_top_picture(detector_.halo(), {}, R_map_body, 15.0, 720)});
+                       halo_top_picture(detector_->halo(), {}, R_map_body, 15.0, 720)});
 }
 
 void DemoFlight::keep_maps() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,7 +53,7 @@ class DemoFlight {
   /// Samples of the flown path in a cell that the map calls occupied at the end.
   [[nodiscard]] int flown_through_occupied() const;
 
-  [[nodiscard]] const DenseMap& map() const { return detector_.dense_map(); }
+  [[nodiscard]] const DenseMap& map() const { return detector_->dense_map(); }
 
   [[nodiscard]] const LocalMap& local_map() const noexcept { return local_map_; }
 
@@ -74,9 +74,9 @@ class DemoFlight {
   const SimulatedFlight& flight_;
   Config config_;
   ExactMap exact_;
-  ObstacleDetector detector_;
+  std::unique_ptr<ObstacleDetector> detector_;  // both hold vectors, which ask for room
   LocalMap local_map_;
-  ScanIntegrator local_integrator_;
+  std::unique_ptr<ScanIntegrator> local_integrator_;
   StageClock clock_;
   std::vector<DemoRow> rows_;
   std::vector<std::vector<float>> errors_px_;  // per pair

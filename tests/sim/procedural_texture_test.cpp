@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "support/sanitised.hpp"
+
 namespace skyhalo {
 namespace {
 
@@ -54,6 +56,9 @@ TEST(ProceduralTextureProperty, EveryPatternWrapsAtBothEdges) {
 }
 
 TEST(ProceduralTextureProperty, TheSameSeedGivesTheSamePictureAnotherOneNot) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   for (int i = 0; i < kPatternCount; ++i) {
     const auto pattern = static_cast<Pattern>(i);
     const cv::Mat3b picture = procedural_texture(pattern, 3);

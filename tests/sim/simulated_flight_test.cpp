@@ -14,6 +14,7 @@
 #include "skyhalo/sim/make_scene.hpp"
 #include "skyhalo/sim/waypoint_flight.hpp"
 #include "support/expect_error.hpp"
+#include "support/sanitised.hpp"
 #include "support/small_rigs.hpp"
 #include "support/temp_folder.hpp"
 
@@ -58,6 +59,9 @@ void expect_same(const FrameSet& a, const FrameSet& b) {
 }
 
 TEST(SimulatedFlightTest, TheSameSeedGivesTheSameFlightAtAnyNumberOfThreads) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   const auto first = fly_yard(few_frames());
   const FrameSet images = first->read(1);
   const std::vector<LaserReturn> scan = first->laser_returns(1);
@@ -72,6 +76,9 @@ TEST(SimulatedFlightTest, TheSameSeedGivesTheSameFlightAtAnyNumberOfThreads) {
 }
 
 TEST(SimulatedFlightTest, AnotherSeedGivesOtherNoiseOnTheSameScene) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   SimulationConfig other = few_frames();
   other.seed = 2;
   const cv::Mat a = fly_yard(few_frames())->read_pair(0, 0).left;

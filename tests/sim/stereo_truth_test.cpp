@@ -86,6 +86,9 @@ DisparityErrors errors_in(const SceneWish& wish, int texture_min_grey) {
 class StereoTruthSystem : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(StereoTruthSystem, DisparitiesAreRightWhereThereIsTexture) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   const DisparityErrors errors =
       errors_in({.name = GetParam(), .difficulty = 0.0}, SgmConfig{}.texture_min_grey);
   std::cout << GetParam() << ": median " << errors.median_px << " px, outliers " << errors.outliers
