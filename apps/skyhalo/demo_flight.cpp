@@ -191,7 +191,9 @@ int DemoFlight::flown_through_occupied() const {
   const double p_occupied = config_.evaluation.occupied_probability;
   const double end_s = flight_.time_s(flight_.frame_count() - 1);
   int occupied = 0;
-  for (double t_s = 0.0; t_s <= end_s; t_s += kStepS) {
+  const int steps = static_cast<int>(end_s / kStepS);
+  for (int i = 0; i <= steps; ++i) {
+    const double t_s = i * kStepS;
     const LogOdds cell = map().at_point(flight_.trajectory().T_map_body(t_s).translation());
     occupied += probability_of(cell) > p_occupied ? 1 : 0;
   }

@@ -60,7 +60,7 @@ std::vector<LaserReturn> fire(const SceneMoment& moment,
 std::vector<double> laser_elevations_rad() {
   constexpr int kPerBlock = 32;
   std::vector<double> elevations_rad;
-  elevations_rad.reserve(2 * kPerBlock);
+  elevations_rad.reserve(std::size_t{2} * kPerBlock);
   for (int i = 0; i < kPerBlock; ++i) {
     elevations_rad.push_back(rad_from_deg(2.0 - i / 3.0));
   }
