@@ -173,6 +173,20 @@ void export_own(const SimulatedFlight& flight,
   writer.finish();
 }
 
+/// Labels say where objects are seen: from the true pose, however wrong the measured one is.
+KittiTrackingFrame kitti_frame(const SimulatedFlight& flight, int frame) {
+  KittiTrackingFrame written{
+      .images = flight.read_pair(frame, 0),
+      .T_map_body = flight.T_map_body(frame),
+      .scan = returns_of(flight.laser_returns(frame)),
+      .objects = flight.objects(frame, left_eye_m(flight.rig().pairs.front()))};
+  const Pose T_map_scene = written.T_map_body * flight.T_scene_body(frame).inverse();
+  for (SceneObject& object : written.objects) {
+    object.T_map_object = T_map_scene * object.T_map_object;
+  }
+  return written;
+}
+
 void export_kitti(const SimulatedFlight& flight, const ExportSettings& settings, bool quiet) {
   const StereoPair& pair = flight.rig().pairs.front();
   KittiTrackingWriter writer(
@@ -180,12 +194,7 @@ void export_kitti(const SimulatedFlight& flight, const ExportSettings& settings,
   write_frames(
       flight,
       quiet,
-      [&](int frame) {
-        return KittiTrackingFrame{.images = flight.read_pair(frame, 0),
-                                  .T_map_body = flight.T_map_body(frame),
-                                  .scan = returns_of(flight.laser_returns(frame)),
-                                  .objects = flight.objects(frame, left_eye_m(pair))};
-      },
+      [&](int frame) { return kitti_frame(flight, frame); },
       [&](int, const KittiTrackingFrame& written) { writer.add(written); });
   writer.finish();
 }

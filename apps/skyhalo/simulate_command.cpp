@@ -32,6 +32,19 @@ ExportFormat format_of(const std::string& name) {
   return name == "euroc" ? ExportFormat::kEuroc : ExportFormat::kSkyhalo;
 }
 
+/// KITTI's tracking layout has no time stamps: its frames are 0.1 s apart.
+SimulationOptions wish_for(ExportFormat format, SimulationOptions wish) {
+  constexpr double kKittiHz = 10.0;
+  if (format != ExportFormat::kKittiTracking) {
+    return wish;
+  }
+  if (wish.rate_hz != 0.0 && wish.rate_hz != kKittiHz) {
+    throw UsageError("--rate: frames in KITTI's tracking layout are 0.1 s apart, so 10 Hz");
+  }
+  wish.rate_hz = kKittiHz;
+  return wish;
+}
+
 std::optional<RigDescription> read_rig(const SimulateOptions& options, const Config& config) {
   if (options.rig.empty()) {
     return std::nullopt;
@@ -46,7 +59,7 @@ void simulate(const SimulateOptions& options) {
   const ThreadLimit limit(options.common.threads);
   const ExportFormat format = format_of(options.format);
   const RigDescription rig = rig_for(format, read_rig(options, config), options.pair);
-  const SimulationOptions& wish = options.simulation;
+  const SimulationOptions wish = wish_for(format, options.simulation);
   const auto flight = make_flight(wish, options.common, open_scene(wish), resolve(rig));
   export_flight(*flight,
                 rig,

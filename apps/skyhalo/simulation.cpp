@@ -187,7 +187,8 @@ void add_flight_options(CLI::App& command, SimulationOptions& options) {
   command
       .add_option("--rate",
                   options.rate_hz,
-                  "frames per second (default: 5, or what spreads --frames over the flight)")
+                  "frames per second (default: 5, or what spreads --frames over the flight; "
+                  "kitti-tracking: 10)")
       ->type_name("HZ")
       ->check(CLI::PositiveNumber);
   command.add_option("--seed", options.seed, "of scene and noise; the same seed, the same flight")

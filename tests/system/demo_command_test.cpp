@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "skyhalo/io/output_folder.hpp"
 #include "skyhalo/io/text_file.hpp"
 #include "support/program.hpp"
+#include "support/room_flight.hpp"
+#include "support/sanitised.hpp"
 #include "support/temp_folder.hpp"
 
 namespace skyhalo {
@@ -17,7 +20,10 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::ProgramResult;
 
-TEST(DemoCommandSystem, FliesScoresAndWritesAPageThatOpensOffline) {
+TEST(DemoCommandSystem, FliesTheReferencePlatformAndWritesAPageThatOpensOffline) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser; the next test runs the same code there";
+  }
   const testing::TempFolder root;
   const std::string out = (root.path() / "demo").string();
   const ProgramResult result = testing::run_program(SKYHALO_PROGRAM,
@@ -55,6 +61,34 @@ TEST(DemoCommandSystem, FliesScoresAndWritesAPageThatOpensOffline) {
   EXPECT_THAT(page, Not(HasSubstr("SKYHALO_CONTENT")));
   EXPECT_THAT(read_bytes(out + "/map.ply"), ::testing::StartsWith("ply"));
   EXPECT_THAT(read_bytes(out + "/overview.png"), HasSubstr("PNG"));
+}
+
+TEST(DemoCommandSystem, FliesYourOwnRigThroughYourOwnMesh) {
+  const testing::TempFolder root;
+  const std::string folder = root.path().string();
+  write_bytes(folder + "/room.obj", testing::kRoom);
+  write_bytes(folder + "/rig.yaml", testing::kSmallRig);
+  write_bytes(folder + "/path.csv", "x_m,y_m,z_m\n-5,0,2\n0,2,2\n5,0,3\n");
+  const ProgramResult result = testing::run_program(SKYHALO_PROGRAM,
+                                                    {"demo",
+                                                     "--scene",
+                                                     folder + "/room.obj",
+                                                     "--rig",
+                                                     folder + "/rig.yaml",
+                                                     "--trajectory",
+                                                     folder + "/path.csv",
+                                                     "--frames",
+                                                     "5",
+                                                     "--out",
+                                                     folder + "/demo",
+                                                     "--quiet",
+                                                     "--json"},
+                                                    root.path());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto summary = nlohmann::json::parse(result.out);
+  EXPECT_EQ(summary["frame_sets"], 5);
+  EXPECT_EQ(summary["pairs"], 1);
+  EXPECT_EQ(summary["flown_through_occupied"], 0);
 }
 
 TEST(DemoCommandSystem, AnUnknownSceneLeavesNothing) {

@@ -10,6 +10,7 @@
 #include "skyhalo/io/output_folder.hpp"
 #include "skyhalo/io/text_file.hpp"
 #include "support/program.hpp"
+#include "support/room_flight.hpp"
 #include "support/temp_folder.hpp"
 
 namespace skyhalo {
@@ -23,24 +24,11 @@ using ::testing::HasSubstr;
 using testing::ProgramResult;
 using testing::TempFolder;
 
-/// A room about the origin, 20 m wide, its floor at z = 0, as an OBJ file.
-constexpr const char* kRoom =
-    "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nv -10 10 0\n"
-    "v -10 -10 6\nv 10 -10 6\nv 10 10 6\nv -10 10 6\n"
-    "f 1 2 3\nf 1 3 4\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
-
-/// One rectified pair of small images.
-constexpr const char* kRig =
-    "rig: small\npairs:\n  - name: front\n    rectified:\n      size_px: [160, 120]\n"
-    "      model: pinhole\n      focal_px: 100\n      principal_point_px: [79.5, 59.5]\n"
-    "      baseline_m: 0.2\n    T_body_camera: {position_m: [0.1, -0.1, 0]}\n"
-    "    downscale: 1\n    rcrop_px: 16\n";
-
 class SimulateCommandSystem : public ::testing::Test {
  protected:
   SimulateCommandSystem() {
-    write("room.obj", kRoom);
-    write("rig.yaml", kRig);
+    write("room.obj", testing::kRoom);
+    write("rig.yaml", testing::kSmallRig);
     write("path.csv", "x_m,y_m,z_m\n-5,0,2\n0,2,2\n5,0,3\n");
   }
 
@@ -179,6 +167,9 @@ TEST_F(SimulateCommandSystem, WrongUsageSaysWhatIsExpected) {
   EXPECT_EQ(many.exit_code, 2);
   EXPECT_THAT(many.err, HasSubstr("frames at 5 Hz"));
   EXPECT_EQ(simulate({"--format", "euroc", "--pair", "rear"}).exit_code, 2);
+  const ProgramResult slow = simulate({"--format", "kitti-tracking", "--rate", "5"});
+  EXPECT_EQ(slow.exit_code, 2);
+  EXPECT_THAT(slow.err, HasSubstr("10 Hz"));
 }
 
 }  // namespace
