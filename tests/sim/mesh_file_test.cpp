@@ -162,6 +162,38 @@ TEST(MeshFileTest, APlyKeepsTheColoursOfItsVertices) {
   EXPECT_EQ(second.z(), 0.0F);
 }
 
+/// One picture for two materials; the first mesh has places in it, the second none.
+TEST(MeshFileTest, APictureIsKeptOnceAndNeedsPlacesInIt) {
+  const TempFolder folder;
+  folder.write("two.mtl", "newmtl a\nmap_Kd blue.png\nnewmtl b\nmap_Kd blue.png\n");
+  folder.write("blue.png", png({255, 0, 0}));
+  const Scene scene = read_scene(folder.write("two.obj",
+                                              "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                              "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1 2 3\n"),
+                                 {});
+  ASSERT_EQ(scene.fixed.triangles.size(), 2U);
+  EXPECT_EQ(scene.textures.size(), 2U);  // the picture and the grain
+  EXPECT_EQ(material_of(scene, 0).mapping, TextureMapping::kVertices);
+  EXPECT_EQ(material_of(scene, 1).mapping, TextureMapping::kPosition);
+  EXPECT_NE(material_of(scene, 0).texture, material_of(scene, 1).texture);
+}
+
+TEST(MeshFileTest, AFaceOfNoVertexIsAnError) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_THAT(complaint("coloured.ply",
+                        head + colour + faces +
+                            "0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 0 9 9 9\n1 1 0 9 9 9\n3 0 1 900000\n"),
+              HasSubstr("vertex 900000, but the mesh has 4"));
+  EXPECT_THAT(complaint("quad.ply", head + faces + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 900000\n"),
+              HasSubstr("quad.ply: face 0"));
+  EXPECT_THAT(complaint("minus.ply", head + faces + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 -1\n"),
+              HasSubstr("minus.ply: "));
+}
+
 TEST(MeshFileTest, AFileThatIsNoneIsNamed) {
   const TempFolder folder;
   const std::filesystem::path missing = folder.path() / "none.obj";

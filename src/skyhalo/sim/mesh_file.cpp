@@ -53,6 +53,38 @@ Eigen::Affine3d placed(const aiMatrix4x4& m) {
   return T;
 }
 
+/// Throws where a face has a vertex that is not its mesh's; no step may look at it before.
+void check_faces(const aiMesh& mesh, const std::filesystem::path& file) {
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      if (face.mIndices[k] >= mesh.mNumVertices) {
+        throw input_error(file,
+                          "face " + std::to_string(i) + " of mesh \"" + mesh.mName.C_Str() +
+                              "\": vertex " + std::to_string(face.mIndices[k]) +
+                              ", but the mesh has " + std::to_string(mesh.mNumVertices));
+      }
+    }
+  }
+}
+
+/// What the file holds, with polygons cut into triangles, and with no step that drops what is
+/// invalid: that has to be told.
+const aiScene& read_source(Assimp::Importer& importer, const std::filesystem::path& file) {
+  const auto expect = [&](const aiScene* source) -> const aiScene& {
+    if (source == nullptr) {
+      throw input_error(file,
+                        std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+    }
+    return *source;
+  };
+  const aiScene& source = expect(importer.ReadFile(file.string(), 0));
+  for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+    check_faces(*source.mMeshes[i], file);
+  }
+  return expect(importer.ApplyPostProcessing(aiProcess_Triangulate));
+}
+
 /// What a file is read into.
 class MeshReader {
  public:
@@ -115,17 +147,13 @@ class MeshReader {
 Scene read_scene(const std::filesystem::path& file, const MeshFileOptions& options) {
   check_file(file, options);
   Assimp::Importer importer;
-  // No step that drops what is invalid: that has to be told.
-  const aiScene* const source = importer.ReadFile(file.string(), aiProcess_Triangulate);
-  if (source == nullptr) {
-    throw input_error(file, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
-  }
+  const aiScene& source = read_source(importer, file);
   Scene scene;
   scene.name = file.stem().string();
-  if (source->mRootNode != nullptr) {
+  if (source.mRootNode != nullptr) {
     Eigen::Affine3d T_scene_file = Eigen::Affine3d::Identity();
     T_scene_file.linear() = options.unit_m * turned_up(options.up);
-    MeshReader(scene, *source, file).add(*source->mRootNode, T_scene_file);
+    MeshReader(scene, source, file).add(*source.mRootNode, T_scene_file);
   }
   check(scene.fixed, file.string());
   return scene;

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/sim/procedural_texture.hpp"
@@ -134,50 +135,67 @@ MeshMaterials::MeshMaterials(Scene& scene, const aiScene& source, const std::fil
 
 std::uint16_t MeshMaterials::of(const aiMesh& mesh, const aiFace& triangle) {
   const std::size_t own = std::min<std::size_t>(mesh.mMaterialIndex, materials_.size() - 1);
-  const Material& material = scene_.materials[materials_[own]];
-  const bool pictured = material.mapping == TextureMapping::kVertices && mesh.HasTextureCoords(0);
-  if (pictured || !mesh.HasVertexColors(0)) {
-    return materials_[own];
-  }
-  const std::uint32_t tones = tones_of(mesh, triangle);
-  const auto found = colours_.find(tones);
-  if (found != colours_.end()) {
+  const bool pictured = scene_.materials[materials_[own]].mapping == TextureMapping::kVertices;
+  if (mesh.HasVertexColors(0) && !(pictured && mesh.HasTextureCoords(0))) {
+    const auto [found, is_new] = colours_.try_emplace(tones_of(mesh, triangle));
+    if (is_new) {
+      Material coloured;
+      coloured.name = "vertex colour " + std::to_string(colours_.size());
+      give_grain(coloured, colour_of(found->first));
+      found->second = add(coloured);
+    }
     return found->second;
   }
-  Material coloured;
-  coloured.name = "vertex colour " + std::to_string(colours_.size());
-  coloured.colour_bgr = colour_of(tones) / kGrainMean;
-  coloured.texture = grain();
-  coloured.texture_edge_m = kGrainEdgeM;
-  const auto index = static_cast<std::uint16_t>(scene_.materials.size());
-  scene_.materials.push_back(coloured);
-  colours_.emplace(tones, index);
-  return index;
+  if (pictured && !mesh.HasTextureCoords(0)) {
+    const auto [found, is_new] = grained_.try_emplace(materials_[own]);
+    if (is_new) {
+      Material grained = scene_.materials[materials_[own]];
+      give_grain(grained, grained.colour_bgr);
+      found->second = add(grained);
+    }
+    return found->second;
+  }
+  return materials_[own];
+}
+
+std::uint16_t MeshMaterials::add(Material material) {
+  scene_.materials.push_back(std::move(material));
+  return static_cast<std::uint16_t>(scene_.materials.size() - 1);
+}
+
+void MeshMaterials::give_grain(Material& material, const Eigen::Vector3f& colour_bgr) {
+  material.colour_bgr = colour_bgr / kGrainMean;
+  material.texture = grain();
+  material.mapping = Material().mapping;
+  material.texture_edge_m = kGrainEdgeM;
 }
 
 void MeshMaterials::add_material(const aiMaterial& source) {
-  if (materials_.size() >= 30000) {  // the vertices' colours need the rest of 16 bits
-    throw input_error(file_, "holds more than 30000 materials");
+  if (materials_.size() >= 16000) {  // with a grained one each, vertices' colours have the rest
+    throw input_error(file_, "holds more than 16000 materials");
   }
   Material material;
   material.name = source.GetName().C_Str();
   const aiString picture = texture_name(source);
   material.colour_bgr = colour_of(source);
   if (picture.length > 0) {
-    material.texture = add_texture(picture);
+    material.texture = texture(picture);
     material.mapping = TextureMapping::kVertices;
   } else {
-    material.colour_bgr /= kGrainMean;
-    material.texture = grain();
-    material.texture_edge_m = kGrainEdgeM;
+    give_grain(material, material.colour_bgr);
   }
-  materials_.push_back(static_cast<std::uint16_t>(scene_.materials.size()));
-  scene_.materials.push_back(material);
+  materials_.push_back(add(material));
 }
 
-int MeshMaterials::add_texture(const aiString& name) {
+int MeshMaterials::texture(const aiString& name) {
+  const auto found = textures_.find(name.C_Str());
+  if (found != textures_.end()) {
+    return found->second;
+  }
   scene_.textures.emplace_back(picture_of(source_, file_, name.C_Str()));
-  return static_cast<int>(scene_.textures.size()) - 1;
+  const int index = static_cast<int>(scene_.textures.size()) - 1;
+  textures_.emplace(name.C_Str(), index);
+  return index;
 }
 
 int MeshMaterials::grain() {
