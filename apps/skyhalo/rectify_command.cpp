@@ -14,6 +14,7 @@
 #include "for_each_frame.hpp"
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/calibration/rig_file.hpp"
+#include "skyhalo/camera/shrunk_camera.hpp"
 #include "skyhalo/dataset/image_pair.hpp"
 #include "skyhalo/evaluation/row_difference.hpp"
 #include "skyhalo/io/epipolar_picture.hpp"
@@ -73,15 +74,6 @@ Recording open_images(const RectifyCommand& options, const Config& config) {
   return recording;
 }
 
-cv::Rect shrunk(const cv::Rect& mask, int factor) {
-  const auto down = [factor](int at) {
-    return static_cast<int>(std::floor(static_cast<double>(at) / factor));
-  };
-  const cv::Point first(down(mask.x), down(mask.y));
-  const cv::Point end(-down(-(mask.x + mask.width)), -down(-(mask.y + mask.height)));
-  return {first, end};
-}
-
 /// The rectified pair as a rig file of its own, for whoever goes on with the images.
 RigDescription describe_output(const StereoPair& pair,
                                const std::optional<Pose>& T_body_imu,
@@ -98,7 +90,7 @@ RigDescription describe_output(const StereoPair& pair,
     output.downscale = *pair.downscale / factor;
   }
   for (const cv::Rect& mask : pair.masks_px) {
-    output.masks_px.push_back(shrunk(mask, factor));
+    output.masks_px.push_back(skyhalo::downscaled(mask, factor));
   }
   return {.name = pair.name + " rectified", .T_body_imu = T_body_imu, .pairs = {output}};
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "support/example_lenses.hpp"
 
 namespace skyhalo {
@@ -21,6 +23,15 @@ TEST(ShrunkCameraTest, BlocksOfPixelsBecomeOneThatLooksAtTheirMiddle) {
       EXPECT_LT((*half_px - (full_px->array() * 0.5 - 0.25).matrix()).norm(), 1e-9);
     }
   }
+}
+
+TEST(ShrunkCameraTest, ARectangleKeepsEveryPixelThatItTouches) {
+  EXPECT_EQ(downscaled(cv::Rect(3, 4, 2, 2), 2), cv::Rect(1, 2, 2, 1));
+  EXPECT_EQ(downscaled(cv::Rect(-3, -4, 5, 6), 4), cv::Rect(-1, -1, 2, 2));
+  EXPECT_EQ(downscaled(cv::Rect(7, 9, 11, 13), 1), cv::Rect(7, 9, 11, 13));
+  EXPECT_TRUE(downscaled(cv::Rect(3, 3, 0, 5), 2).empty());
+  const int most = std::numeric_limits<int>::max();
+  EXPECT_EQ(downscaled(cv::Rect(most - 1, 0, most, 2), 2), cv::Rect(most / 2, 0, most / 2 + 1, 1));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "skyhalo/camera/raw_pair.hpp"
 
 namespace skyhalo {
@@ -8,5 +10,9 @@ namespace skyhalo {
 /// averaging (METHOD 1): the same lens with larger pixels. Rows and columns beyond a multiple of
 /// the factor are left out.
 [[nodiscard]] RawCamera downscaled(const RawCamera& camera, int factor);
+
+/// The pixels of a shrunk image that share any with a rectangle of the whole one, in and beyond the
+/// image; `factor` >= 1.
+[[nodiscard]] cv::Rect downscaled(const cv::Rect& rectangle_px, int factor) noexcept;
 
 }  // namespace skyhalo

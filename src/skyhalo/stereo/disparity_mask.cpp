@@ -5,18 +5,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "skyhalo/base/whole_division.hpp"
+
 namespace skyhalo {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-std::int64_t floor_div(std::int64_t a, int b) noexcept {
-  return a >= 0 ? a / b : -((-a + b - 1) / b);
-}
-
-std::int64_t ceil_div(std::int64_t a, int b) noexcept {
-  return -floor_div(-a, b);
-}
 
 /// The part [from, from + length) of a side of `size_px` before shrinking, after it, inside the
 /// side.
