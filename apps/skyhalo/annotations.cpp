@@ -40,10 +40,11 @@ bool is_own_file(const std::string& file, const Recording& recording) {
 Annotations find_annotations(const Recording& recording,
                              const std::string& label_file,
                              const EvaluationConfig& config) {
+  if (!label_file.empty() && !recording.takes_labels) {
+    throw UsageError("--labels " + label_file +
+                     ": a recording of skyhalo's own has its boxes in objects.csv");
+  }
   if (recording.own_boxes) {
-    if (!label_file.empty()) {
-      throw UsageError("--labels " + label_file + ": the recording has boxes of its own");
-    }
     return {recording.own_boxes, true, ""};
   }
   const std::string file = label_file.empty() ? recording.label_file.string() : label_file;

@@ -137,7 +137,10 @@ Recording open_skyhalo(const SourceOptions& options,
   if (!source.has_laser()) {
     recording.laser = nullptr;
   }
-  recording.own_boxes = [&source](int frame) { return source.boxes_in_body(frame); };
+  if (source.has_objects()) {
+    recording.own_boxes = [&source](int frame) { return source.boxes_in_body(frame); };
+  }
+  recording.takes_labels = false;
   return recording;
 }
 

@@ -56,6 +56,7 @@ struct Recording {
   const LaserSource* laser = nullptr;  ///< part of `frames`; none without a laser scanner
   std::filesystem::path label_file;    ///< KITTI's, where there is one; else empty
   BoxesOf own_boxes;                   ///< set when the recording has boxes of its own
+  bool takes_labels = true;            ///< whether KITTI's labels can be those of the recording
 };
 
 /// Whether a command goes by the poses of a recording.

@@ -49,6 +49,7 @@ void expect_same_frame(const FlightRecording& flight, int i, const FlightFrame& 
   EXPECT_EQ(object.track, 4);
   EXPECT_EQ(object.type, "Car");
   EXPECT_EQ(object.size_m, written.objects[0].size_m);
+  EXPECT_EQ(object.occluded, written.objects[0].occluded);
   EXPECT_EQ(object.T_map_object.translation(), written.objects[0].T_map_object.translation());
   EXPECT_TRUE(object.T_map_object.isApprox(written.objects[0].T_map_object, 1e-14));
 }
@@ -95,12 +96,14 @@ TEST(FlightRecordingWriterTest, OnlyImagesAndPosesAreNeeded) {
   FlightDescription description = full_flight();
   description.T_body_laser.reset();
   description.has_sonar = false;
+  description.has_objects = false;
   FlightRecordingWriter writer(folder.path() / "flight", description);
   writer.add(bare_frame(0));
   writer.finish();
   const FlightRecording flight(folder.path() / "flight");
   EXPECT_FALSE(flight.has_laser());
   EXPECT_FALSE(flight.has_sonar());
+  EXPECT_FALSE(flight.has_objects());
   EXPECT_FALSE(flight.read_scan(0));
   EXPECT_FALSE(flight.sonar_m(0));
   EXPECT_FALSE(flight.true_pose(0));
@@ -111,6 +114,16 @@ TEST(FlightRecordingWriterTest, OnlyImagesAndPosesAreNeeded) {
   }
   EXPECT_THAT(message_of([&] { (void)flight.T_body_laser(); }),
               HasSubstr("flight.json: laser: this key is missing"));
+}
+
+TEST(FlightRecordingWriterTest, ThatNothingMovesIsKept) {
+  const TempFolder folder;
+  FlightRecordingWriter writer(folder.path() / "flight", full_flight());
+  writer.add(bare_frame(0));
+  writer.finish();
+  const FlightRecording flight(folder.path() / "flight");
+  EXPECT_TRUE(flight.has_objects());
+  EXPECT_TRUE(flight.objects(0).empty());
 }
 
 TEST(FlightRecordingWriterTest, NoEchoAndNoPointAreKept) {
@@ -137,6 +150,7 @@ TEST(FlightRecordingWriterTest, WhatDoesNotFitTheDescriptionIsRefused) {
   FlightDescription description = full_flight();
   description.T_body_laser.reset();
   description.has_sonar = false;
+  description.has_objects = false;
   FlightRecordingWriter writer(folder.path() / "flight", description);
   writer.add(bare_frame(1));
   const auto refused = [&](const auto& change) {
@@ -160,6 +174,14 @@ TEST(FlightRecordingWriterTest, WhatDoesNotFitTheDescriptionIsRefused) {
                 f.objects = {testing::upright_object(-2, Eigen::Vector3d::Zero(), 0.0)};
               }),
               HasSubstr("frame 1: object -2"));
+  EXPECT_THAT(refused([](auto& f) {
+                f.objects = {testing::upright_object(2, Eigen::Vector3d::Zero(), 0.0)};
+              }),
+              HasSubstr("frame 1: has objects, but the description none"));
+  EXPECT_THAT(refused([](auto& f) {
+                f.truth = {{cv::Mat1f(97, 320, 1.0F), {}}, {}};
+              }),
+              HasSubstr("frame 1: front truth: expected an image no larger"));
   writer.finish();
   EXPECT_EQ(FlightRecording(folder.path() / "flight").frame_count(), 1);
 }

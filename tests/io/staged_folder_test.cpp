@@ -83,6 +83,17 @@ TEST(StagedFolderTest, PartsJoinWhatIsThere) {
   EXPECT_THAT(failure([&] { clash.commit({"c.txt", "a/0.txt"}); }), HasSubstr("a/0.txt: cannot"));
   EXPECT_FALSE(fs::exists(out / "c.txt"));
   EXPECT_EQ(read_bytes(out / "a/0.txt"), "old");
+
+  StagedFolder torn(out);
+  write_bytes(torn.file("c.txt"), "c");
+  EXPECT_THAT(failure([&] {
+                torn.commit({"c.txt", "never_written.txt"});
+              }),
+              HasSubstr("never_written.txt: cannot"));
+  EXPECT_FALSE(fs::exists(out / "c.txt"));
+  write_bytes(torn.file("never_written.txt"), "now");
+  torn.commit({"c.txt", "never_written.txt"});
+  EXPECT_EQ(read_bytes(out / "c.txt"), "c");
 }
 
 TEST(StagedFolderTest, AFolderThatCannotBeMadeIsNamed) {

@@ -105,7 +105,8 @@ TEST(SimulatedFlightTest, WhatIsWrittenReadsBackToTheLastBit) {
                                 .source = {},
                                 .rig = small_rig(),
                                 .T_body_laser = flight->config().T_body_laser,
-                                .has_sonar = true});
+                                .has_sonar = true,
+                                .has_objects = true});
   for (int frame = 0; frame < flight->frame_count(); ++frame) {
     LaserReturns scan;
     for (const LaserReturn& one : flight->laser_returns(frame)) {

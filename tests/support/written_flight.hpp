@@ -32,7 +32,8 @@ inline FlightDescription full_flight() {
           .source = {{"scene", "street \"7\""}, {"seed", "42"}, {"empty", ""}},
           .rig = two_pairs(),
           .T_body_laser = laser_place(),
-          .has_sonar = true};
+          .has_sonar = true,
+          .has_objects = true};
 }
 
 /// An upright object somewhere.
@@ -55,6 +56,7 @@ inline FlightFrame full_frame(unsigned seed) {
   frame.scan = some_scan(seed);
   frame.sonar_m = 0.1 * (seed + 1);
   frame.objects = {upright_object(4, {0.1 * seed, -1.0 / 3.0, 1e-7}, 0.3 * seed)};
+  frame.objects[0].occluded = 2;
   cv::Mat1f disparity_px(48, 160, 3.125F);
   disparity_px(3, 5) = std::numeric_limits<float>::quiet_NaN();
   cv::Mat1f range_m(96, 320, 1.0F / 3.0F);

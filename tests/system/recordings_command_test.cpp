@@ -119,12 +119,14 @@ class RecordingsCommandSystem : public ::testing::Test {
 
   /// Writes the drive as a recording of skyhalo's own and returns the folder.
   [[nodiscard]] fs::path write_flight(bool has_laser,
-                                      const std::vector<SceneObject>& objects = {}) const {
+                                      const std::vector<SceneObject>& objects = {},
+                                      bool has_objects = true) const {
     FlightDescription description{
         .name = "towards a wall",
         .source = {},
         .rig = {.name = "test", .T_body_imu = {}, .pairs = {pair()}},
-        .T_body_laser = has_laser ? std::optional(testing::laser_place()) : std::nullopt};
+        .T_body_laser = has_laser ? std::optional(testing::laser_place()) : std::nullopt,
+        .has_objects = has_objects};
     FlightRecordingWriter writer(root.path() / "flight", description);
     for (int i = 0; i < world.frames; ++i) {
       const double x_m = i * world.step_m;
@@ -192,9 +194,12 @@ TEST_F(RecordingsCommandSystem, ARecordingOfOurOwnIsScored) {
   const ProgramResult labels =
       run_on("evaluate", root.path() / "flight", {"--labels", "label_02_0003.txt"});
   EXPECT_EQ(labels.exit_code, 2);
-  EXPECT_THAT(labels.err, HasSubstr("the recording has boxes of its own"));
+  EXPECT_THAT(labels.err, HasSubstr("has its boxes in objects.csv"));
   fs::remove_all(root.path() / "flight");
   EXPECT_LT(occupied_cells(write_flight(true, {box_in_the_wall()})), expected - 20);
+  fs::remove_all(root.path() / "flight");
+  EXPECT_EQ(occupied_cells(write_flight(true, {}, false)), expected);
+  EXPECT_EQ(summary()["labelled"], false);
 }
 
 TEST_F(RecordingsCommandSystem, ARecordingWithoutLaserIsMappedButNotScored) {

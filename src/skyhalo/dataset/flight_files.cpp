@@ -61,7 +61,8 @@ Pose parse_pose(const fs::path& file, int number, const std::string& line) {
 }
 
 SceneObject parse_object(const CsvRow& row) {
-  SceneObject object{.track = row.whole_number(1), .type = row.text(2)};
+  SceneObject object{
+      .track = row.whole_number(1), .type = row.text(2), .occluded = row.whole_number(10)};
   object.size_m = {row.number(7), row.number(8), row.number(9)};
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(row.number(6), Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -150,7 +151,7 @@ std::string object_line(const SceneObject& object, int frame) {
                              object.size_m.z()}) {
     line += "," + exact_number_text(value);
   }
-  return line + "\n";
+  return line + "," + std::to_string(object.occluded) + "\n";
 }
 
 }  // namespace skyhalo

@@ -22,7 +22,7 @@ inline constexpr int kFlightVersion = 1;
 inline constexpr const char* kFramesHeader = "frame,stamp_ns";
 inline constexpr const char* kSonarHeader = "frame,stamp_ns,range_m";
 inline constexpr const char* kObjectsHeader =
-    "frame,track,type,x_m,y_m,z_m,yaw_rad,length_m,width_m,height_m";
+    "frame,track,type,x_m,y_m,z_m,yaw_rad,length_m,width_m,height_m,occluded";
 
 /// `flight.json`: what there is.
 struct FlightHead {

@@ -66,6 +66,9 @@ class FlightRecording final : public FrameSource, public LaserSource {
 
   [[nodiscard]] bool has_sonar() const noexcept { return !sonar_m_.empty(); }
 
+  /// Whether it is known what moves, be it nothing.
+  [[nodiscard]] bool has_objects() const noexcept { return !objects_.empty(); }
+
   /// The range finder's range; none without echo or without range finder.
   [[nodiscard]] std::optional<double> sonar_m(int frame) const;
 

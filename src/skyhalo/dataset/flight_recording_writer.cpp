@@ -35,6 +35,18 @@ void check_sensors(const FlightFrame& frame, const FlightDescription& descriptio
   if (frame.sonar_m && !(std::isfinite(*frame.sonar_m) && *frame.sonar_m >= 0.0)) {
     throw frame_error(number, "sonar: expected a range >= 0 m, or none");
   }
+  if (!frame.objects.empty() && !description.has_objects) {
+    throw frame_error(number, "has objects, but the description none");
+  }
+}
+
+/// Throws for truth that cannot be of the rectified pair, whole or shrunk.
+void check_truth(const PairTruth& truth, const StereoPair& pair, int number) {
+  for (const cv::Mat1f& image : {truth.disparity_px, truth.range_m}) {
+    if (image.cols > pair.image_size_px.width || image.rows > pair.image_size_px.height) {
+      throw frame_error(number, pair.name + " truth: expected an image no larger than the pair's");
+    }
+  }
 }
 
 FlightDescription checked_description(FlightDescription description) {
@@ -83,6 +95,9 @@ void FlightRecordingWriter::check_fits(const FlightFrame& frame) const {
     const StereoImages& images = frame.images.pairs[i];
     check_image(images.left, {left_image_size_px(pair)}, number, pair.name + " left image");
     check_image(images.right, {right_image_size_px(pair)}, number, pair.name + " right image");
+    if (!frame.truth.empty()) {
+      check_truth(frame.truth[i], pair, number);
+    }
   }
   check_rigid(frame.T_map_body, number, "T_map_body");
   if (number > 0 && frame.true_pose.has_value() != has_true_poses_) {
@@ -91,10 +106,10 @@ void FlightRecordingWriter::check_fits(const FlightFrame& frame) const {
   if (frame.true_pose) {
     check_rigid(*frame.true_pose, number, "true_pose");
   }
-  check_sensors(frame, description_, number);
   for (const SceneObject& object : frame.objects) {
     check(object, number);
   }
+  check_sensors(frame, description_, number);
 }
 
 void FlightRecordingWriter::write_pairs(const FlightFrame& frame) const {
@@ -126,7 +141,6 @@ void FlightRecordingWriter::add_rows(const FlightFrame& frame) {
   sonar_csv_ += row + "," + (frame.sonar_m ? exact_number_text(*frame.sonar_m) : "") + "\n";
   for (const SceneObject& object : frame.objects) {
     objects_csv_ += object_line(object, frame_count_);
-    has_objects_ = true;
   }
   last_stamp_ = frame.images.stamp;
   ++frame_count_;
@@ -148,7 +162,7 @@ void FlightRecordingWriter::finish() {
   if (description_.has_sonar) {
     write_table("sonar.csv", kSonarHeader, sonar_csv_);
   }
-  if (has_objects_) {
+  if (description_.has_objects) {
     write_table("objects.csv", kObjectsHeader, objects_csv_);
   }
   write_bytes(staged_.file(kFlightFile),
@@ -157,7 +171,7 @@ void FlightRecordingWriter::finish() {
                             .frames = frame_count_,
                             .T_body_laser = description_.T_body_laser,
                             .has_sonar = description_.has_sonar,
-                            .has_objects = has_objects_,
+                            .has_objects = description_.has_objects,
                             .has_true_poses = has_true_poses_}));
   staged_.commit();
 }

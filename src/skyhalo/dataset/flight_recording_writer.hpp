@@ -20,6 +20,7 @@ struct FlightDescription {
   RigDescription rig;                         ///< any number of pairs, raw or rectified
   std::optional<Pose> T_body_laser;           ///< set when there is a laser scanner
   bool has_sonar = false;                     ///< whether there is a range finder
+  bool has_objects = false;                   ///< whether it is known what moves, be it nothing
 };
 
 /// What a pair should have found; an image that is empty is not recorded.
@@ -35,7 +36,7 @@ struct FlightFrame {
   std::optional<Pose> true_pose;       ///< `T_map_body` as it was; in all frames or in none
   std::optional<LaserReturns> scan;    ///< only with a laser scanner
   std::optional<double> sonar_m;       ///< only with a range finder; none: no echo
-  std::vector<SceneObject> objects{};  ///< upright: of their rotation only the yaw is kept
+  std::vector<SceneObject> objects{};  ///< only if known; upright: only their yaw is kept
   std::vector<PairTruth> truth{};      ///< empty, or one per pair
 };
 
@@ -76,7 +77,6 @@ class FlightRecordingWriter {
   int frame_count_ = 0;
   std::optional<Timestamp> last_stamp_;
   bool has_true_poses_ = false;
-  bool has_objects_ = false;
   std::string frames_csv_;
   std::string poses_;
   std::string true_poses_;

@@ -103,9 +103,19 @@ void StagedFolder::commit(const std::vector<fs::path>& parts) {
   for (const fs::path& part : parts) {
     expect_unused(folder_ / part);
   }
-  for (const fs::path& part : parts) {
-    make_folders((folder_ / part).parent_path());
-    move(staging_ / part, folder_ / part);
+  std::size_t moved = 0;
+  try {
+    for (; moved < parts.size(); ++moved) {
+      make_folders((folder_ / parts[moved]).parent_path());
+      move(staging_ / parts[moved], folder_ / parts[moved]);
+    }
+  } catch (...) {  // all of them or none
+    std::error_code ignored;
+    while (moved > 0) {
+      --moved;
+      fs::rename(folder_ / parts[moved], staging_ / parts[moved], ignored);
+    }
+    throw;
   }
   committed_ = true;
 }
