@@ -19,7 +19,7 @@ namespace {
 
 struct DemoOptions {
   CommonOptions common;
-  SimulationOptions simulation{.frames = 54};
+  SimulationOptions simulation{.usual_frames = 54};
   std::string rig;
   std::string out = "out/demo";
 };
@@ -56,10 +56,11 @@ cv::Mat3b overview(const std::vector<TitledPicture>& pictures, std::size_t pairs
 
 void demo(const DemoOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const Config config = load_config(options.common, demo_config());
+  Config config = load_config(options.common, demo_config());
+  const std::string settings = to_yaml(config);
   const ThreadLimit limit(options.common.threads);
   const RigDescription rig =
-      at_matched_resolution(open_description(options, config), config.detector.matching.downscale);
+      at_matched_resolution(open_description(options, config), config.detector.matching);
   OutputFolder out(options.out);
   const SimulationOptions& wish = options.simulation;
   print_note(options.common, "making the scene \"" + wish.scene + "\"");
@@ -75,7 +76,7 @@ void demo(const DemoOptions& options) {
   write_ply(out.file("map.ply"),
             occupied_points(run.map(), config.evaluation.occupied_probability));
   write_bytes(out.file("summary.json"), summary.dump(2) + "\n");
-  write_bytes(out.file("report.html"), demo_page(run, summary, to_yaml(config)));
+  write_bytes(out.file("report.html"), demo_page(run, summary, settings));
   out.commit();
   print_result(options.common,
                demo_text(summary) + "Look at it: open " + (out.folder() / "report.html").string() +

@@ -65,6 +65,23 @@ PairDescription rectified(const PairDescription& pair, const StereoPair& resolve
   return other;
 }
 
+std::string names_of(const std::vector<PairDescription>& pairs) {
+  std::string names;
+  for (const PairDescription& pair : pairs) {
+    names += (names.empty() ? "" : ", ") + pair.name;
+  }
+  return names;
+}
+
+RigDescription with_one_pair(RigDescription rig, const std::string& name) {
+  const auto found = std::ranges::find(rig.pairs, name, &PairDescription::name);
+  if (found == rig.pairs.end()) {
+    throw UsageError("--pair " + name + ": the rig has " + names_of(rig.pairs));
+  }
+  rig.pairs = {*found};
+  return rig;
+}
+
 /// The pairs of a rig that fit the format, and have the name, if there is one.
 std::vector<PairDescription> fitting(ExportFormat format,
                                      const RigDescription& rig,
@@ -155,7 +172,8 @@ void export_own(const SimulatedFlight& flight,
        .rig = rig,
        .T_body_laser =
            settings.with_laser ? std::optional(flight.config().T_body_laser) : std::nullopt,
-       .has_sonar = true});
+       .has_sonar = true,
+       .has_objects = true});
   ExactMap exact(flight, settings.voxel_m);
   write_frames(
       flight,
@@ -209,7 +227,7 @@ void export_euroc(const SimulatedFlight& flight,
       quiet,
       [&](int frame) { return flight.read_pair(frame, 0); },
       [&](int frame, const StereoImages& images) {
-        writer.add({flight.stamp(frame), flight.T_map_body(frame)}, images);
+        writer.add({flight.stamp(frame), flight.T_scene_body(frame)}, images);
       });
   writer.finish();
 }
@@ -220,7 +238,8 @@ RigDescription rig_for(ExportFormat format,
                        const std::optional<RigDescription>& rig,
                        const std::string& pair) {
   if (format == ExportFormat::kSkyhalo) {
-    return rig ? *rig : reference_rig();
+    RigDescription whole = rig ? *rig : reference_rig();
+    return pair.empty() ? whole : with_one_pair(std::move(whole), pair);
   }
   if (!rig) {
     return {.name = "simulated",
@@ -234,11 +253,7 @@ RigDescription rig_for(ExportFormat format,
                                         ": the rig has no pair of that name that fits this format");
   }
   if (chosen.size() > 1) {
-    std::string names;
-    for (const PairDescription& one : chosen) {
-      names += (names.empty() ? "" : ", ") + one.name;
-    }
-    throw UsageError("this format has one pair; choose it with --pair out of " + names);
+    throw UsageError("this format has one pair; choose it with --pair out of " + names_of(chosen));
   }
   return {.name = rig->name, .T_body_imu = Pose::Identity(), .pairs = {chosen.front()}};
 }

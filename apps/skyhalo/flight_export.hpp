@@ -25,8 +25,8 @@ struct ExportSettings {
 };
 
 /// The cameras that a layout asks for: of `rig` (none: such as the layout usually has), the pair
-/// of that name, or the only one that fits. KITTI's is rectified. Throws `UsageError` when none
-/// or several fit.
+/// of that name; without a name all of them, in other layouts than our own the only one that fits.
+/// KITTI's is rectified. Throws `UsageError` when none or several fit.
 [[nodiscard]] RigDescription rig_for(ExportFormat format,
                                      const std::optional<RigDescription>& rig,
                                      const std::string& pair);

@@ -19,7 +19,7 @@ struct SimulateOptions {
   std::string rig;
   std::string pair;
   std::string format = "skyhalo";
-  int sequence = 0;
+  std::optional<int> sequence{};
   bool without_truth = false;
   bool without_laser = false;
   std::string out = "out/simulate";
@@ -45,6 +45,36 @@ SimulationOptions wish_for(ExportFormat format, SimulationOptions wish) {
   return wish;
 }
 
+/// Throws for options that mean nothing in the format.
+void check_options(ExportFormat format, const SimulateOptions& options) {
+  if (options.sequence && format != ExportFormat::kKittiTracking) {
+    throw UsageError("--sequence: only KITTI's tracking layout has sequences");
+  }
+  if ((options.without_truth || options.without_laser) && format != ExportFormat::kSkyhalo) {
+    throw UsageError(std::string(options.without_truth ? "--no-truth" : "--no-laser") +
+                     ": only skyhalo's own layout can leave it out");
+  }
+  const SimulationOptions& wish = options.simulation;
+  const bool ins_errs =
+      !wish.ins_noise.empty() || !wish.ins_drift.empty() || wish.ins_delay_s != 0.0;
+  if (ins_errs && format == ExportFormat::kEuroc) {
+    throw UsageError("--ins-...: EuRoC's layout has true poses only");
+  }
+}
+
+/// How to look at what was written.
+std::string advice(ExportFormat format,
+                   const SimulateOptions& options,
+                   const SimulatedFlight& flight) {
+  if (format != ExportFormat::kKittiTracking) {
+    return "skyhalo run " + options.out;
+  }
+  const std::string sequence = number_text("%04.0f", options.sequence.value_or(0));
+  const bool sees_anything = !flight.laser_returns(0).empty();
+  return std::string("skyhalo ") + (sees_anything ? "evaluate " : "run ") + options.out +
+         " --sequence " + sequence;
+}
+
 std::optional<RigDescription> read_rig(const SimulateOptions& options, const Config& config) {
   if (options.rig.empty()) {
     return std::nullopt;
@@ -58,6 +88,7 @@ void simulate(const SimulateOptions& options) {
   const Config config = load_config(options.common);
   const ThreadLimit limit(options.common.threads);
   const ExportFormat format = format_of(options.format);
+  check_options(format, options);
   const RigDescription rig = rig_for(format, read_rig(options, config), options.pair);
   const SimulationOptions wish = wish_for(format, options.simulation);
   const auto flight = make_flight(wish, options.common, open_scene(wish), resolve(rig));
@@ -65,7 +96,7 @@ void simulate(const SimulateOptions& options) {
                 rig,
                 {.format = format,
                  .folder = options.out,
-                 .sequence = options.sequence,
+                 .sequence = options.sequence.value_or(0),
                  .with_truth = !options.without_truth,
                  .with_laser = !options.without_laser,
                  .voxel_m = config.detector.map.voxel_m,
@@ -89,8 +120,7 @@ void simulate(const SimulateOptions& options) {
   std::ostringstream text;
   text << flight->frame_count() << " frames of " << rig.pairs.size()
        << (rig.pairs.size() == 1 ? " pair" : " pairs") << " in " << number_text("%.1f", seconds)
-       << " s.\nLook at it with: skyhalo "
-       << (format == ExportFormat::kKittiTracking ? "evaluate " : "run ") << options.out << "\n";
+       << " s.\nLook at it with: " << advice(format, options, *flight) << "\n";
   print_result(options.common, text.str(), summary);
 }
 
@@ -110,14 +140,24 @@ void add_simulate(CLI::App& program) {
                    "rig file of the cameras (default: the reference platform's four pairs; for "
                    "kitti-tracking and euroc cameras such as theirs)")
       ->type_name("FILE");
-  command->add_option("--pair", options->pair, "kitti-tracking, euroc: which pair of the rig")
+  command
+      ->add_option(
+          "--pair", options->pair, "only this pair of the rig; kitti-tracking and euroc have one")
       ->type_name("NAME");
   command->add_option("--format", options->format, "layout of the recording")
       ->check(CLI::IsMember({"skyhalo", "kitti-tracking", "euroc"}))
       ->capture_default_str();
-  command->add_option("--sequence", options->sequence, "kitti-tracking: number of the sequence")
+  command
+      ->add_option(
+          "--sequence", options->sequence, "kitti-tracking: number of the sequence (default: 0)")
       ->type_name("N")
-      ->check(CLI::Range(0, 9999))
+      ->check(CLI::Range(0, 9999));
+  command
+      ->add_option("--laser-sigma",
+                   options->simulation.laser_sigma_m,
+                   "standard deviation of laser ranges (m)")
+      ->type_name("M")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag(
       "--no-truth", options->without_truth, "skyhalo: leave out exact depth, disparity and cells");

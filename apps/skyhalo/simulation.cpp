@@ -12,6 +12,7 @@
 #include "skyhalo/calibration/rig_file.hpp"
 #include "skyhalo/camera/shrunk_camera.hpp"
 #include "skyhalo/geometry/angle.hpp"
+#include "skyhalo/sim/clear_orbit.hpp"
 #include "skyhalo/sim/flight_plan.hpp"
 #include "skyhalo/sim/make_scene.hpp"
 #include "skyhalo/sim/mesh_file.hpp"
@@ -51,9 +52,7 @@ UpAxis up_axis(const std::string& name) {
   return name == "y" ? UpAxis::kY : UpAxis::kZ;
 }
 
-/// Somewhere to fly where a scene has no route of its own: over the middle, as high as its size
-/// asks for.
-std::vector<Eigen::Vector3d> route_of(const Scene& scene) {
+const std::vector<Eigen::Vector3d>& route_of(const Scene& scene) {
   if (!scene.route_m.empty()) {
     return scene.route_m;
   }
@@ -64,11 +63,7 @@ std::vector<Eigen::Vector3d> route_of(const Scene& scene) {
 }
 
 FlightPlan plan_of(const SimulationOptions& options, const Scene& scene, FlightKind kind) {
-  const std::vector<Eigen::Vector3d> route_m = route_of(scene);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point_m : route_m) {
-    box.extend(point_m);
-  }
+  const std::vector<Eigen::Vector3d>& route_m = route_of(scene);
   FlightPlan plan;
   plan.kind = kind;
   plan.waypoints_m = route_m;
@@ -76,15 +71,20 @@ FlightPlan plan_of(const SimulationOptions& options, const Scene& scene, FlightK
   plan.limits.speed_mps = options.speed_mps;
   plan.hover.position_m = route_m.front();
   plan.hover.seed = options.seed;
-  plan.orbit.centre_m = box.center();
-  plan.orbit.radius_m = std::max(0.5 * box.sizes().head<2>().minCoeff(), 1.0);
-  plan.orbit.speed_mps = options.speed_mps;
+  if (kind == FlightKind::kOrbit) {
+    const auto orbit = clear_orbit(scene, options.speed_mps, options.body_radius_m);
+    if (!orbit) {
+      throw Error(ErrorKind::kInput,
+                  scene.name + ": there is no room for a circle along its route");
+    }
+    plan.orbit = *orbit;
+  }
   return plan;
 }
 
 Trajectory open_trajectory(const SimulationOptions& options, const Scene& scene) {
   const std::string& name = options.trajectory;
-  const auto kind = flight_kind(name == "route" ? "waypoints" : name);
+  const auto kind = flight_kind(name);
   if (kind) {
     return fly(plan_of(options, scene, *kind));
   }
@@ -95,19 +95,21 @@ Trajectory open_trajectory(const SimulationOptions& options, const Scene& scene)
 
 /// Frames and how fast they follow each other.
 void set_frames(const SimulationOptions& options, double duration_s, SimulationConfig& config) {
+  const bool any = options.frames == 0 && options.rate_hz == 0.0;
+  const int frames = any ? options.usual_frames : options.frames;
   config.rate_hz = kUsualRateHz;
-  if (options.rate_hz > 0.0) {
+  if (options.rate_hz != 0.0) {
     config.rate_hz = options.rate_hz;
-  } else if (options.frames > 1) {
-    config.rate_hz = (options.frames - 1) / duration_s;
+  } else if (frames > 1) {
+    config.rate_hz = (frames - 1) / duration_s;
   }
   const double fit = std::floor(duration_s * config.rate_hz * (1.0 + 1e-9)) + 1.0;
-  if (options.frames > fit) {
-    throw UsageError("--frames " + std::to_string(options.frames) + ": the flight takes " +
+  if (frames > fit) {
+    throw UsageError("--frames " + std::to_string(frames) + ": the flight takes " +
                      number_text("%.1f", duration_s) + " s and has " + number_text("%.0f", fit) +
                      " frames at " + number_text("%g", config.rate_hz) + " Hz");
   }
-  config.frames = options.frames > 0 ? options.frames : static_cast<int>(std::min(fit, 1e6));
+  config.frames = frames > 0 ? frames : static_cast<int>(std::min(fit, 1e6));
 }
 
 SimulationConfig config_of(const SimulationOptions& options, double duration_s) {
@@ -116,7 +118,6 @@ SimulationConfig config_of(const SimulationOptions& options, double duration_s) 
   config.seed = options.seed;
   config.look.samples = options.samples;
   config.laser.range_sigma_m = options.laser_sigma_m;
-  config.laser.seed = options.seed;
   config.ins.seed = options.seed;
   config.ins.delay_s = options.ins_delay_s;
   if (!options.ins_noise.empty()) {
@@ -129,7 +130,6 @@ SimulationConfig config_of(const SimulationOptions& options, double duration_s) 
   }
   config.sonar.T_body_sonar.linear() =
       Eigen::AngleAxisd(rad_from_deg(90.0), Eigen::Vector3d::UnitY()).toRotationMatrix();
-  config.sonar.seed = options.seed;
   return config;
 }
 
@@ -164,7 +164,8 @@ void add_flight_options(CLI::App& command, SimulationOptions& options) {
       .add_option(
           "--trajectory",
           options.trajectory,
-          "route (the scene's own), hover, orbit, aggressive, or a file: TUM, or CSV with a "
+          "route (the scene's own), hover (at its start), orbit (the widest clear circle about "
+          "a place on it), aggressive (the route, up to 12 m/s), or a file: TUM, or CSV with a "
           "header line out of t_s,x_m,y_m,z_m,yaw_deg,roll_deg,pitch_deg")
       ->type_name("NAME|FILE")
       ->capture_default_str();
@@ -181,16 +182,22 @@ void add_flight_options(CLI::App& command, SimulationOptions& options) {
       ->capture_default_str();
   command.add_flag(
       "--may-collide", options.may_collide, "fly through surfaces all the same, with a warning");
-  command.add_option("--frames", options.frames, "number of frames (default: all of the flight)")
+  command
+      .add_option("--frames",
+                  options.frames,
+                  "number of frames (default: " +
+                      (options.usual_frames > 0 ? std::to_string(options.usual_frames)
+                                                : std::string("all of the flight")) +
+                      ")")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command
       .add_option("--rate",
                   options.rate_hz,
-                  "frames per second (default: 5, or what spreads --frames over the flight; "
-                  "kitti-tracking: 10)")
+                  "frames per second (default: what spreads --frames over the flight, without them "
+                  "5; kitti-tracking: 10)")
       ->type_name("HZ")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 10000.0));
   command.add_option("--seed", options.seed, "of scene and noise; the same seed, the same flight")
       ->type_name("K")
       ->capture_default_str();
@@ -217,11 +224,6 @@ void add_sensor_options(CLI::App& command, SimulationOptions& options) {
   command.add_option("--ins-delay", options.ins_delay_s, "poses are this old (s)")
       ->type_name("S")
       ->check(CLI::NonNegativeNumber);
-  command
-      .add_option("--laser-sigma", options.laser_sigma_m, "standard deviation of laser ranges (m)")
-      ->type_name("M")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
 }
 
 }  // namespace
@@ -244,17 +246,15 @@ RigDescription reference_rig() {
   return parse_rig(kReferenceRig, "the built-in reference rig").description;
 }
 
-RigDescription at_matched_resolution(const RigDescription& rig, int downscale) {
+RigDescription at_matched_resolution(const RigDescription& rig, MatchingConfig& matching) {
   RigDescription small = rig;
   for (PairDescription& pair : small.pairs) {
-    const int factor = pair.downscale.value_or(downscale);
+    pair.masks_px.insert(pair.masks_px.end(), matching.masks_px.begin(), matching.masks_px.end());
+    const int factor = pair.downscale.value_or(matching.downscale);
     pair.downscale = 1;
     pair.line_time_s *= factor;  // the same time for the whole image
     for (cv::Rect& mask : pair.masks_px) {
-      mask = {mask.x / factor,
-              mask.y / factor,
-              (mask.width + factor - 1) / factor,
-              (mask.height + factor - 1) / factor};
+      mask = downscaled(mask, factor);
     }
     if (auto* rectified = std::get_if<RectifiedPairDescription>(&pair.images)) {
       rectified->model = downscaled(rectified->model, factor);
@@ -268,6 +268,7 @@ RigDescription at_matched_resolution(const RigDescription& rig, int downscale) {
       *raw.rectify_to.size_px /= factor;
     }
   }
+  matching.masks_px.clear();
   return small;
 }
 

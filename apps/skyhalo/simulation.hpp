@@ -25,6 +25,7 @@ struct SimulationOptions {
   int samples = 4;
   int frames = 0;                   ///< 0: all of the flight
   double rate_hz = 0.0;             ///< 0: 5 per second, or what spreads `frames` over the flight
+  int usual_frames = 0;             ///< `frames` where neither is asked for
   std::vector<double> ins_noise{};  ///< m, deg
   std::vector<double> ins_drift{};  ///< m, deg per square root of a second
   double ins_delay_s = 0.0;
@@ -40,8 +41,9 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options);
 [[nodiscard]] RigDescription reference_rig();
 
 /// The cameras as if they gave images at the resolution that is matched: all smaller, nothing left
-/// to shrink. `downscale` is that of pairs that do not say.
-[[nodiscard]] RigDescription at_matched_resolution(const RigDescription& rig, int downscale);
+/// to shrink. `matching` holds for pairs that do not say and has its masks brought into the pairs.
+[[nodiscard]] RigDescription at_matched_resolution(const RigDescription& rig,
+                                                   MatchingConfig& matching);
 
 /// The flight that is asked for, with its cameras. Throws `Error` (input) when it passes through
 /// what stands in the scene, unless it may.

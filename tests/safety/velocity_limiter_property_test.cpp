@@ -569,6 +569,9 @@ TEST(VelocityLimiterProperty, KeepsClearOfWallsThatLean) {
 
 /// Worlds where limiters failed that heeded the commands only, not the way from one to the next.
 TEST(VelocityLimiterProperty, KeepsClearWhereTurningTakesTheBrakes) {
+  if (testing::kSanitised) {
+    GTEST_SKIP() << "takes minutes under a sanitiser, and others run the same code there";
+  }
   for (const bool straight : {false, true}) {
     for (const unsigned seed : {556U, 879U, 1000U}) {
       const Kind kind = {.unseen = UnseenPolicy::kAllow, .wide = true, .brakes_straight = straight};

@@ -166,6 +166,7 @@ TEST_F(TrajectoryTextTest, TellsOfTimesThatDoNotIncrease) {
   EXPECT_THAT(message("t_s,x_m,y_m,z_m\n0,1,2,3\n2,1,2,3\n1,1,2,3\n"),
               HasSubstr("flight.txt:4: time 1 s"));
   EXPECT_THAT(message("t_s,x_m,y_m,z_m\n0,1,2,3\n1e9,1,2,3\n"), HasSubstr("at most 3600"));
+  EXPECT_THAT(message("0 1 2 3 0 0 0 1\n1e9 1 2 3 0 0 0 1\n"), HasSubstr("at most 3600"));
 }
 
 TEST_F(TrajectoryTextTest, TellsOfWrongHeaders) {

@@ -63,32 +63,59 @@ TEST(DemoCommandSystem, FliesTheReferencePlatformAndWritesAPageThatOpensOffline)
   EXPECT_THAT(read_bytes(out + "/overview.png"), HasSubstr("PNG"));
 }
 
-TEST(DemoCommandSystem, FliesYourOwnRigThroughYourOwnMesh) {
-  const testing::TempFolder root;
+/// A demo with a small rig through a room.
+ProgramResult small_demo(const testing::TempFolder& root, const testing::Arguments& more) {
   const std::string folder = root.path().string();
   write_bytes(folder + "/room.obj", testing::kRoom);
-  write_bytes(folder + "/rig.yaml", testing::kSmallRig);
   write_bytes(folder + "/path.csv", "x_m,y_m,z_m\n-5,0,2\n0,2,2\n5,0,3\n");
-  const ProgramResult result = testing::run_program(SKYHALO_PROGRAM,
-                                                    {"demo",
-                                                     "--scene",
-                                                     folder + "/room.obj",
-                                                     "--rig",
-                                                     folder + "/rig.yaml",
-                                                     "--trajectory",
-                                                     folder + "/path.csv",
-                                                     "--frames",
-                                                     "5",
-                                                     "--out",
-                                                     folder + "/demo",
-                                                     "--quiet",
-                                                     "--json"},
-                                                    root.path());
+  return testing::run_program(SKYHALO_PROGRAM,
+                              testing::Arguments{"demo",
+                                                 "--scene",
+                                                 folder + "/room.obj",
+                                                 "--trajectory",
+                                                 folder + "/path.csv",
+                                                 "--rig",
+                                                 folder + "/rig.yaml",
+                                                 "--out",
+                                                 folder + "/demo",
+                                                 "--quiet",
+                                                 "--json"} +
+                                  more,
+                              root.path());
+}
+
+TEST(DemoCommandSystem, FliesYourOwnRigThroughYourOwnMesh) {
+  const testing::TempFolder root;
+  (void)root.write("rig.yaml", testing::kSmallRig);
+  const ProgramResult result = small_demo(root, {"--frames", "5"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto summary = nlohmann::json::parse(result.out);
   EXPECT_EQ(summary["frame_sets"], 5);
   EXPECT_EQ(summary["pairs"], 1);
   EXPECT_EQ(summary["flown_through_occupied"], 0);
+  // A rate alone is enough: the usual number of frames is nobody's wish.
+  EXPECT_EQ(small_demo(root, {"--rate", "1", "--samples", "1"}).exit_code, 0);
+}
+
+/// Images are rendered at half the rig's size; a mask is still in the rig's pixels.
+TEST(DemoCommandSystem, MasksAreInTheRigsPixels) {
+  const testing::TempFolder root;
+  std::string rig = testing::kSmallRig;
+  rig.replace(rig.find("downscale: 1"), 12, "downscale: 2");
+  (void)root.write("rig.yaml", rig);
+  const auto density = [&](const testing::Arguments& more) {
+    const ProgramResult result =
+        small_demo(root, testing::Arguments{"--frames", "2", "--samples", "1"} + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out)["disparity"]["front"]["density"].get<double>();
+  };
+  const double whole = density({});
+  EXPECT_GT(whole, 0.3);
+  EXPECT_EQ(density({"--set", "matching.masks_px=[[0,0,160,120]]"}), 0.0);
+  EXPECT_NEAR(density({"--set", "matching.masks_px=[[0,0,160,60]]"}) +
+                  density({"--set", "matching.masks_px=[[0,60,160,60]]"}),
+              whole,
+              1e-6);
 }
 
 TEST(DemoCommandSystem, AnUnknownSceneLeavesNothing) {

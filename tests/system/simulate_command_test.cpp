@@ -100,6 +100,7 @@ TEST_F(SimulateCommandSystem, WritesARecordingThatRunsWithItsTruth) {
 TEST_F(SimulateCommandSystem, WritesAKittiSequenceThatEvaluateTakes) {
   const ProgramResult simulated = simulate({"--format", "kitti-tracking", "--sequence", "3"});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
+  EXPECT_THAT(simulated.out, HasSubstr("skyhalo evaluate " + at("out") + " --sequence 0003"));
   EXPECT_TRUE(fs::exists(at("out/training/label_02/0003.txt")));
   const ProgramResult evaluated =
       run({"evaluate", at("out"), "--out", at("evaluated"), "--quiet", "--json"});
@@ -112,17 +113,26 @@ TEST_F(SimulateCommandSystem, WritesAEurocFlightThatRuns) {
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   const ProgramResult mapped = run({"run", at("out"), "--out", at("run"), "--quiet"});
   EXPECT_EQ(mapped.exit_code, 0) << mapped.err;
+  // The ground truth is exact, so there is no place for poses that err.
+  const ProgramResult erring = simulate({"--format", "euroc", "--ins-noise", "1,5"});
+  EXPECT_EQ(erring.exit_code, 2);
+  EXPECT_THAT(erring.err, HasSubstr("true poses only"));
 }
 
 TEST_F(SimulateCommandSystem, TheSameSeedWritesTheSameBytes) {
   ASSERT_EQ(simulate({"--seed", "5", "--ins-noise", "0.1,1"}).exit_code, 0);
   fs::rename(at("out"), at("first"));
   ASSERT_EQ(simulate({"--seed", "5", "--ins-noise", "0.1,1", "--threads", "1"}).exit_code, 0);
-  for (const char* name : {"poses.txt", "images/front/left/000001.png", "laser/000001.bin"}) {
-    EXPECT_EQ(read_bytes(at(std::string("out/") + name)),
-              read_bytes(at(std::string("first/") + name)))
-        << name;
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(at("first"))) {
+    if (entry.is_regular_file()) {
+      const fs::path relative = fs::relative(entry.path(), at("first"));
+      EXPECT_EQ(read_bytes(fs::path(at("out")) / relative), read_bytes(entry.path())) << relative;
+      ++files;
+    }
   }
+  // Two images, scan and two truths of three frames, seven tables, two maps.
+  EXPECT_EQ(files, 3 * 5 + 9);
 }
 
 TEST_F(SimulateCommandSystem, AnUnknownSceneIsNamedWithTheKnownOnes) {
@@ -151,6 +161,29 @@ TEST_F(SimulateCommandSystem, TrajectoriesThatCannotBeFlownAreNamed) {
   write("short.csv", "x_m,y_m,z_m\n-5,0,2\n");
   expect_bad_input({"--trajectory", at("short.csv")}, "short.csv");
   expect_bad_input({"--trajectory", "route"}, "no route");
+}
+
+TEST_F(SimulateCommandSystem, CirclesAndHoversKeepClear) {
+  for (const std::string trajectory : {"orbit", "hover"}) {
+    const ProgramResult result =
+        simulate({"--scene", "fence", "--trajectory", trajectory, "--frames", "1", "--no-truth"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    fs::remove_all(at("out"));
+  }
+}
+
+TEST_F(SimulateCommandSystem, OptionsThatMeanNothingInALayoutAreRefused) {
+  const auto complaint = [&](const Arguments& arguments) {
+    const ProgramResult result = simulate(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_THAT(complaint({"--sequence", "1"}), HasSubstr("has sequences"));
+  EXPECT_THAT(complaint({"--format", "euroc", "--no-truth"}), HasSubstr("--no-truth"));
+  EXPECT_THAT(complaint({"--format", "kitti-tracking", "--no-laser"}), HasSubstr("--no-laser"));
+  EXPECT_THAT(complaint({"--pair", "rear"}), HasSubstr("--pair rear: the rig has front"));
+  expect_bad_input({"--rate", "nan"}, "rate_hz");
+  expect_bad_input({"--body-radius", "nan"}, "the body's radius");
 }
 
 TEST_F(SimulateCommandSystem, AFolderThatHoldsSomethingIsLeftAsItIs) {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 #include "skyhalo/sim/sampled_motion.hpp"
 #include "skyhalo/sim/setting_range.hpp"
 #include "skyhalo/sim/thrust_attitude.hpp"
@@ -20,24 +20,21 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kGreatestAccelerationMps2 = 9.5;
 
 constexpr std::array<std::pair<FlightKind, std::string_view>, 4> kKinds = {{
-    {FlightKind::kWaypoints, "waypoints"},
+    {FlightKind::kWaypoints, "route"},
     {FlightKind::kHover, "hover"},
     {FlightKind::kOrbit, "orbit"},
     {FlightKind::kAggressive, "aggressive"},
 }};
 
-/// The same number on every machine, from 0 up to 1.
-double draw(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11U) * 0x1p-53;
-}
-
 /// A sum of three slow sines that never leaves -1 to 1.
 class Oscillation {
  public:
-  explicit Oscillation(std::mt19937_64& random) {
+  explicit Oscillation(RandomNumbers& random) {
     for (std::size_t i = 0; i < kBands.size(); ++i) {
-      rates_radps_[i] = kTurn * std::lerp(kBands[i].first, kBands[i].second, draw(random));
-      phases_rad_[i] = kTurn * draw(random);
+      rates_radps_[i] =
+          kTurn *
+          std::lerp(kBands[i].first, kBands[i].second, static_cast<double>(random.uniform()));
+      phases_rad_[i] = kTurn * static_cast<double>(random.uniform());
     }
   }
 
@@ -71,7 +68,7 @@ struct AxisOscillations {
   Oscillation y;
   Oscillation z;
 
-  explicit AxisOscillations(std::mt19937_64& random) : x(random), y(random), z(random) {}
+  explicit AxisOscillations(RandomNumbers& random) : x(random), y(random), z(random) {}
 
   [[nodiscard]] Eigen::Vector3d value(double t_s) const {
     return {x.value(t_s), y.value(t_s), z.value(t_s)};
@@ -99,15 +96,6 @@ FlightLimits aggressive_limits() noexcept {
   return {.speed_mps = 12.0, .acceleration_mps2 = 9.0, .yaw_rate_radps = 3.0};
 }
 
-std::string_view flight_kind_name(FlightKind kind) noexcept {
-  for (const auto& [known, name] : kKinds) {
-    if (known == kind) {
-      return name;
-    }
-  }
-  return {};
-}
-
 std::optional<FlightKind> flight_kind(std::string_view name) noexcept {
   for (const auto& [kind, known] : kKinds) {
     if (known == name) {
@@ -124,7 +112,7 @@ Trajectory fly_hover(const HoverSettings& settings) {
   check_setting(settings.sway_rad, {.name = "sway_rad", .least = 0.0, .most = 0.5});
   check_setting(settings.duration_s,
                 {.name = "duration_s", .least = 0.1, .most = kLongestMotionSeconds});
-  std::mt19937_64 random(settings.seed);
+  RandomNumbers random(settings.seed);
   const AxisOscillations wander(random);
   const AxisOscillations sway(random);
   const double wander_m = settings.wander_m / std::numbers::sqrt3;

@@ -13,7 +13,7 @@ namespace skyhalo {
 
 /// The kinds of flights that have a name.
 enum class FlightKind {
-  kWaypoints,   ///< `waypoints`: along waypoints within the plan's limits
+  kWaypoints,   ///< `route`: along waypoints within the plan's limits
   kHover,       ///< `hover`: about a point
   kOrbit,       ///< `orbit`: a circle
   kAggressive,  ///< `aggressive`: along waypoints within `aggressive_limits`
@@ -56,9 +56,6 @@ struct FlightPlan {
 
 /// 12 m/s, 9 m/s^2 and 3 rad/s.
 [[nodiscard]] FlightLimits aggressive_limits() noexcept;
-
-/// The name of a kind, as in a configuration.
-[[nodiscard]] std::string_view flight_kind_name(FlightKind kind) noexcept;
 
 /// The kind of a name, nothing for other words.
 [[nodiscard]] std::optional<FlightKind> flight_kind(std::string_view name) noexcept;

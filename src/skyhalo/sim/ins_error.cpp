@@ -5,7 +5,7 @@
 #include <string>
 
 #include "skyhalo/base/error.hpp"
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 namespace {

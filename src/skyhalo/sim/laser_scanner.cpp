@@ -7,7 +7,7 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/for_each_index.hpp"
 #include "skyhalo/geometry/angle.hpp"
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 namespace {
@@ -91,7 +91,7 @@ std::vector<LaserReturn> scan(const SceneMoment& moment,
     firings[i] = fire(moment,
                       beams,
                       T_scene_laser(stamp_s + turned * config.turn_s),
-                      random_bits({config.seed, noise_key, i}),
+                      random_bits({noise_key, i}),
                       config);
   });
   std::vector<LaserReturn> all;

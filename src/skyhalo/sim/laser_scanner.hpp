@@ -17,7 +17,6 @@ struct LaserScannerConfig {
   double max_range_m = 120.0;   ///< of a surface that throws back 80 % of the light
   double min_range_m = 0.9;     ///< nearer, nothing is returned
   double turn_s = 0.0;          ///< how long a turn takes; 0: all at once
-  std::uint64_t seed = 1;
 };
 
 /// A point that the laser was thrown back from.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "skyhalo/sim/setting_range.hpp"
+
 namespace skyhalo {
 namespace {
 
@@ -48,6 +50,7 @@ std::optional<Approach> first_collision(const SceneTracer& tracer,
                                         const Trajectory& trajectory,
                                         double until_s,
                                         double body_radius_m) {
+  check_setting(body_radius_m, {.name = "the body's radius (m)", .least = 0.0, .most = 1000.0});
   const SceneMoment moment(tracer, {});
   std::optional<Approach> nearest;
   Eigen::Vector3d asked_m = trajectory.T_map_body(0.0).translation();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <initializer_list>
 
 namespace skyhalo {
 
@@ -12,6 +13,26 @@ namespace skyhalo {
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
   x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
   return x ^ (x >> 31U);
+}
+
+/// Random bits that depend on all of the numbers and nothing else: what is simulated does not
+/// depend on the order in which it is done.
+[[nodiscard]] constexpr std::uint64_t random_bits(
+    std::initializer_list<std::uint64_t> numbers) noexcept {
+  std::uint64_t bits = 0;
+  for (const std::uint64_t number : numbers) {
+    bits = stirred(bits ^ number, 0);
+  }
+  return bits;
+}
+
+/// A number of mean 0 and variance 1 of random bits, nearly normally distributed (the sum of four
+/// uniform ones; never beyond 3.5).
+[[nodiscard]] constexpr float gaussian(std::uint64_t bits) noexcept {
+  constexpr float kScale = 1.7320508F / 65536.0F;  // four of variance 1/12 each
+  const auto sum = static_cast<float>((bits & 0xFFFFU) + ((bits >> 16U) & 0xFFFFU) +
+                                      ((bits >> 32U) & 0xFFFFU) + (bits >> 48U));
+  return (sum - 131070.0F) * kScale;
 }
 
 /// Random numbers that are the same with every compiler and library, other than those of the

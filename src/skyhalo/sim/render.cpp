@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "skyhalo/base/for_each_index.hpp"
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 namespace {

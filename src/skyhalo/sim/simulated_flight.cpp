@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "skyhalo/base/error.hpp"
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 namespace {

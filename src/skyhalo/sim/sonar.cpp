@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 
@@ -34,7 +34,7 @@ std::optional<double> sonar_range_m(const SceneMoment& moment,
   if (nearest->object == SceneHit::kNothing) {
     return std::nullopt;
   }
-  const auto noise = static_cast<double>(gaussian(random_bits({config.seed, noise_key})));
+  const auto noise = static_cast<double>(gaussian(random_bits({noise_key})));
   const double range_m = static_cast<double>(nearest->range_m) + config.range_sigma_m * noise;
   return std::clamp(range_m, config.min_range_m, config.max_range_m);
 }

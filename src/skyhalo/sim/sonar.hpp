@@ -15,7 +15,6 @@ struct SonarConfig {
   double min_range_m = 0.2;
   double max_range_m = 6.0;
   double range_sigma_m = 0.02;  ///< standard deviation of a range
-  std::uint64_t seed = 1;
 };
 
 /// The range (m) of the nearest thing in the cone; none without an echo. Soft and slanted things

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "skyhalo/sim/random_bits.hpp"
+#include "skyhalo/sim/random_numbers.hpp"
 
 namespace skyhalo {
 namespace {

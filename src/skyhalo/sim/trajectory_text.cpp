@@ -16,6 +16,7 @@
 #include "skyhalo/geometry/angle.hpp"
 #include "skyhalo/sim/knot_curve.hpp"
 #include "skyhalo/sim/number_table.hpp"
+#include "skyhalo/sim/setting_range.hpp"
 #include "skyhalo/sim/timed_flight.hpp"
 
 namespace skyhalo {
@@ -112,6 +113,16 @@ Eigen::Quaterniond quaternion_of(const std::filesystem::path& file, const Number
   return q.normalized();
 }
 
+/// Runs an action and puts the file before the message of an error.
+template <typename Action>
+Trajectory naming_file(const std::filesystem::path& file, Action&& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    throw input_error(file, error.what());
+  }
+}
+
 Trajectory tum_trajectory(const std::filesystem::path& file, const NumberTable& table) {
   const std::vector<double> times_s = times_of(file, table, 0);
   std::vector<Eigen::Vector3d> positions_m;
@@ -123,21 +134,14 @@ Trajectory tum_trajectory(const std::filesystem::path& file, const NumberTable& 
     sample.t_s = times_s[samples.size()];
     samples.push_back(sample);
   }
-  const KnotCurve curve(times_s, positions_m);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].velocity_mps = curve.slopes()[i];
-  }
-  return Trajectory(std::move(samples));
-}
-
-/// Runs an action and puts the file before the message of an error.
-template <typename Action>
-Trajectory naming_file(const std::filesystem::path& file, Action&& action) {
-  try {
-    return action();
-  } catch (const Error& error) {
-    throw input_error(file, error.what());
-  }
+  return naming_file(file, [&] {
+    check_duration(times_s.back());
+    const KnotCurve curve(times_s, positions_m);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      samples[i].velocity_mps = curve.slopes()[i];
+    }
+    return Trajectory(std::move(samples));
+  });
 }
 
 Trajectory timed_trajectory(const std::filesystem::path& file,
