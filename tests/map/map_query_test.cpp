@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "support/random_maps.hpp"
+#include "support/sanitised.hpp"
 
 namespace skyhalo {
 namespace {
@@ -180,7 +181,7 @@ void compare(const Ask& ask, const Naive& naive) {
     }
     EXPECT_THAT(tally.counts, Each(Gt(4)));
   };
-  for (const unsigned seed : {1U, 2U}) {
+  for (unsigned seed = 1; seed <= static_cast<unsigned>(testing::rounds(2)); ++seed) {
     const double occupied = seed == 1 ? 0.02 : 0.2;
     use(testing::random_dense_map(occupied, seed), seed);
     use(testing::random_local_map(occupied, seed), seed);

@@ -658,7 +658,7 @@ Wish always(const Eigen::Vector3d& desired_mps) {
 /// The brakes are needed for turning back, too.
 TEST(VelocityLimiterProperty, KeepsClearOfAWallWhileItTurnsBackAlongIt) {
   const BallWorld world = {{Wall{Eigen::Vector3d::UnitX(), 8.0}}};
-  for (int turn = 5; turn < 60; turn += 5) {
+  for (int turn = 5; turn < 60; turn += testing::kSanitised ? 20 : 5) {
     const Tour tour = flown(world, {}, [&](double time_s) {
       return Eigen::Vector3d(4.0, time_s < 0.1 * turn ? 4.0 : -4.0, 0.0);
     });
@@ -675,6 +675,9 @@ TEST(VelocityLimiterProperty, KeepsClearOfTheWallsOfASharpCorner) {
                              {Wall{Eigen::Vector3d(sine, -cosine, 0.0), 12.0 * sine}}};
     for (const Eigen::Vector3d& desired :
          {Eigen::Vector3d(6.0, 0.0, 0.0), Eigen::Vector3d(6.0, 0.5, 0.0)}) {
+      if (testing::kSanitised && desired.y() == 0.0) {
+        continue;
+      }
       EXPECT_GE(flown(world, {}, always(desired)).nearest_m, 0.0) << half_angle_deg;
     }
   }

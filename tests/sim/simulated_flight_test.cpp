@@ -30,7 +30,8 @@ RigDescription small_rig() {
 }
 
 std::unique_ptr<SimulatedFlight> fly_yard(const SimulationConfig& config) {
-  Scene scene = make_scene({.name = "yard"});
+  static const Scene kYard = make_scene({.name = "yard"});
+  Scene scene = kYard;
   Trajectory trajectory = fly_waypoints(scene.route_m, {}, scene.route_closed);
   return std::make_unique<SimulatedFlight>(
       std::move(scene), std::move(trajectory), resolve(small_rig()), config);

@@ -17,6 +17,7 @@
 #include "skyhalo/io/skymap_file.hpp"
 #include "skyhalo/io/text_file.hpp"
 #include "support/program.hpp"
+#include "support/sanitised.hpp"
 #include "support/temp_folder.hpp"
 
 namespace skyhalo {
@@ -80,6 +81,7 @@ class MapKillSystem : public ::testing::Test {
 };
 
 TEST_F(MapKillSystem, AHundredKillsLeaveAWholeMap) {
+  constexpr int kKills = testing::rounds(100);
   const Clock::time_point begin = Clock::now();
   Program first = start(sources[0]);
   const microseconds writing_time = watch_writing();
@@ -93,7 +95,7 @@ TEST_F(MapKillSystem, AHundredKillsLeaveAWholeMap) {
   int hit_while_writing = 0;
   int replaced = 0;
   std::size_t held = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < kKills; ++i) {
     const std::size_t next = 1 - held;
     const std::set<std::string> left = unfinished_files();
     Program program = start(sources[next]);
@@ -122,8 +124,8 @@ TEST_F(MapKillSystem, AHundredKillsLeaveAWholeMap) {
       EXPECT_GT(read_skymap(target).map.brick_count(), 5000U);
     }
   }
-  EXPECT_GE(killed, 30);
-  EXPECT_GE(hit_while_writing, 5) << "no kill came while it wrote: nothing was tried";
+  EXPECT_GE(killed, testing::rounds(30));
+  EXPECT_GE(hit_while_writing, testing::rounds(5)) << "no kill came while it wrote: nothing was tried";
   RecordProperty("killed", killed);
   RecordProperty("hit_while_writing", hit_while_writing);
   RecordProperty("replaced", replaced);

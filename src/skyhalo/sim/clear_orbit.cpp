@@ -38,7 +38,11 @@ std::optional<OrbitSettings> clear_orbit(const Scene& scene,
   centres_m.insert(centres_m.end(), scene.route_m.begin(), scene.route_m.end());
   const SceneTracer tracer(scene);
   const double widest_m = std::max(0.5 * box.sizes().head<2>().minCoeff(), 10.0 * kLeastRadiusM);
-  for (double radius_m = widest_m; radius_m >= kLeastRadiusM; radius_m *= kShrinking) {
+  for (int tries = 0;; ++tries) {
+    const double radius_m = widest_m * std::pow(kShrinking, tries);
+    if (radius_m < kLeastRadiusM) {
+      return std::nullopt;
+    }
     for (const Eigen::Vector3d& centre_m : centres_m) {
       const OrbitSettings orbit = orbit_about(centre_m, radius_m, speed_mps);
       const Trajectory flight = fly_orbit(orbit);
@@ -47,7 +51,6 @@ std::optional<OrbitSettings> clear_orbit(const Scene& scene,
       }
     }
   }
-  return std::nullopt;
 }
 
 }  // namespace skyhalo
