@@ -125,7 +125,8 @@ TEST_F(MapKillSystem, AHundredKillsLeaveAWholeMap) {
     }
   }
   EXPECT_GE(killed, testing::rounds(30));
-  EXPECT_GE(hit_while_writing, testing::rounds(5)) << "no kill came while it wrote: nothing was tried";
+  EXPECT_GE(hit_while_writing, testing::rounds(5))
+      << "no kill came while it wrote: nothing was tried";
   RecordProperty("killed", killed);
   RecordProperty("hit_while_writing", hit_while_writing);
   RecordProperty("replaced", replaced);

@@ -1,10 +1,9 @@
 #include "skyhalo/dataset/csv_table.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
-#include <system_error>
+#include <optional>
 
+#include "skyhalo/dataset/stamp_text.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
@@ -43,13 +42,11 @@ int CsvRow::whole_number(std::size_t column) const {
 }
 
 Timestamp CsvRow::stamp(std::size_t column) const {
-  const std::string& word = text(column);
-  std::int64_t stamp_ns = 0;
-  const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), stamp_ns);
-  if (status != std::errc() || end != word.data() + word.size() || stamp_ns < 0) {
+  const std::optional<Timestamp> stamp = parse_stamp(text(column));
+  if (!stamp) {
     throw wrong(column, "whole nanoseconds since 1970");
   }
-  return Timestamp(std::chrono::nanoseconds(stamp_ns));
+  return *stamp;
 }
 
 Error CsvRow::error(std::string_view message) const {

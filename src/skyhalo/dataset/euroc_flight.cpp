@@ -6,6 +6,7 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/dataset/euroc_poses.hpp"
 #include "skyhalo/dataset/euroc_table.hpp"
+#include "skyhalo/dataset/frame_checks.hpp"
 #include "skyhalo/io/image_file.hpp"
 
 namespace skyhalo {
@@ -71,18 +72,6 @@ Pose level_map(const Pose& T_world_body) {
   R_world_map.col(1) = up.cross(R_world_map.col(0));
   R_world_map.col(2) = up;
   return make_pose(R_world_map, T_world_body.translation()).inverse();
-}
-
-/// Reads an image and sees that it has the size that the rig says.
-cv::Mat read_sized(const fs::path& file, const cv::Size& size) {
-  cv::Mat image = read_image(file);
-  if (image.size() != size) {
-    throw input_error(file,
-                      "has " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-                          " pixels, expected " + std::to_string(size.width) + "x" +
-                          std::to_string(size.height) + " as the rig says");
-  }
-  return image;
 }
 
 }  // namespace
@@ -173,10 +162,9 @@ Pose EurocFlight::T_map_body(int frame) const {
 FrameSet EurocFlight::read(int frame) const {
   const Frame& files = frames_.at(static_cast<std::size_t>(frame));
   const StereoPair& pair = rig_.pairs.front();
-  const cv::Size left = pair.raw ? pair.raw->left.size_px : pair.image_size_px;
-  const cv::Size right = pair.raw ? pair.raw->right.size_px : pair.image_size_px;
   FrameSet frames{.stamp = files.stamp, .pairs = {{}}};
-  frames.pairs.front() = {read_sized(files.left, left), read_sized(files.right, right)};
+  frames.pairs.front() = {read_image_of_size(files.left, left_image_size_px(pair)),
+                          read_image_of_size(files.right, right_image_size_px(pair))};
   return frames;
 }
 

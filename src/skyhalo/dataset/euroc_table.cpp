@@ -1,12 +1,10 @@
 #include "skyhalo/dataset/euroc_table.hpp"
 
-#include <charconv>
-#include <cstdint>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 #include "skyhalo/base/error.hpp"
+#include "skyhalo/dataset/stamp_text.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
@@ -31,16 +29,6 @@ std::vector<std::string> split_fields(std::string_view line) {
     }
     line.remove_prefix(comma + 1);
   }
-}
-
-/// Whole nanoseconds since 1970; through a double they would be off by up to 128 ns.
-std::optional<Timestamp> parse_stamp(std::string_view text) noexcept {
-  std::int64_t stamp_ns = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), stamp_ns);
-  if (status != std::errc() || end != text.data() + text.size() || stamp_ns < 0) {
-    return std::nullopt;
-  }
-  return Timestamp(std::chrono::nanoseconds(stamp_ns));
 }
 
 EurocRow parse_row(const std::filesystem::path& file,

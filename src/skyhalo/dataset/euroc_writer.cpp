@@ -8,6 +8,7 @@
 
 #include "skyhalo/base/number_text.hpp"
 #include "skyhalo/dataset/frame_checks.hpp"
+#include "skyhalo/dataset/stamp_text.hpp"
 #include "skyhalo/io/image_file.hpp"
 #include "skyhalo/io/output_folder.hpp"
 
@@ -17,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = "mav0";
-
-std::string stamp_text(Timestamp stamp) {
-  return std::to_string(stamp.time_since_epoch().count());
-}
 
 template <class Numbers>
 std::string list_of(const Numbers& numbers) {

@@ -6,14 +6,13 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/base/number_text.hpp"
 #include "skyhalo/dataset/csv_table.hpp"
+#include "skyhalo/dataset/frame_checks.hpp"
 #include "skyhalo/io/text_file.hpp"
 
 namespace skyhalo {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kRigidTolerance = 1e-6;
 
 Error wrong_count(const fs::path& file, std::size_t found, int frames) {
   return input_error(file,
@@ -53,11 +52,11 @@ Pose parse_pose(const fs::path& file, int number, const std::string& line) {
     }
     T.data()[i] = *value;
   }
-  const Eigen::Matrix3d R = T.leftCols<3>();
-  if (!is_rotation(R, kRigidTolerance)) {
+  const Pose pose = make_pose(T.leftCols<3>(), T.col(3));
+  if (!is_rigid(pose)) {
     throw input_error(file, number, "its first three columns are not a rotation matrix");
   }
-  return make_pose(R, T.col(3));
+  return pose;
 }
 
 SceneObject parse_object(const CsvRow& row) {

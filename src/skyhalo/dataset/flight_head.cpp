@@ -3,11 +3,10 @@
 #include "skyhalo/base/error.hpp"
 #include "skyhalo/calibration/yaml_value.hpp"
 #include "skyhalo/dataset/flight_files.hpp"
+#include "skyhalo/dataset/frame_checks.hpp"
 
 namespace skyhalo {
 namespace {
-
-constexpr double kRigidTolerance = 1e-6;
 
 bool read_flag(const YamlValue& document, std::string_view key) {
   const YamlValue value = document.at(key);
@@ -23,7 +22,7 @@ Pose read_rows(const YamlValue& value) {
   Pose T = Pose::Identity();
   T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const bool last_row = T.matrix().row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0);
-  if (!last_row || !is_rotation(T.linear(), kRigidTolerance)) {
+  if (!last_row || !is_rigid(T)) {
     throw value.error("expected the four rows of a rigid transform");
   }
   return T;

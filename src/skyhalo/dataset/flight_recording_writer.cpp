@@ -7,6 +7,7 @@
 #include "skyhalo/calibration/rig_file.hpp"
 #include "skyhalo/dataset/flight_files.hpp"
 #include "skyhalo/dataset/frame_checks.hpp"
+#include "skyhalo/dataset/stamp_text.hpp"
 #include "skyhalo/io/disparity_image.hpp"
 #include "skyhalo/io/image_file.hpp"
 #include "skyhalo/io/output_folder.hpp"
@@ -16,10 +17,6 @@ namespace skyhalo {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string stamp_text(Timestamp stamp) {
-  return std::to_string(stamp.time_since_epoch().count());
-}
 
 /// Throws where a frame has something that the description does not speak of, or lacks it.
 void check_sensors(const FlightFrame& frame, const FlightDescription& description, int number) {
