@@ -52,7 +52,7 @@ Pose parse_pose(const fs::path& file, int number, const std::string& line) {
     }
     T.data()[i] = *value;
   }
-  const Pose pose = make_pose(T.leftCols<3>(), T.col(3));
+  Pose pose = make_pose(T.leftCols<3>(), T.col(3));
   if (!is_rigid(pose)) {
     throw input_error(file, number, "its first three columns are not a rotation matrix");
   }
