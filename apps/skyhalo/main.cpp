@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 #include <opencv2/core/utils/logger.hpp>
+#include <string>
 
 #include "commands.hpp"
 #include "common_options.hpp"
@@ -36,6 +37,21 @@ int report(const std::string& message, int code) {
   return code;
 }
 
+#ifndef SKYHALO_HAS_SIM
+// Says why, where "unknown command" would send the user to look for a typing mistake.
+void add_missing(CLI::App& program, const std::string& name) {
+  CLI::App* const command = program.add_subcommand(name, "not in this build");
+  command->group("");
+  command->set_help_flag();
+  command->allow_extras();
+  command->callback([name] {
+    throw skyhalo::app::UsageError(name +
+                                   " needs the simulator, which this build is without: configure "
+                                   "it with -DSKYHALO_BUILD_SIM=ON");
+  });
+}
+#endif
+
 int run(int argc, char** argv) {
   CLI::App program(
       "skyhalo: obstacle detection and 3D mapping from stereo cameras for drones.\n"
@@ -47,6 +63,9 @@ int run(int argc, char** argv) {
 #ifdef SKYHALO_HAS_SIM
   skyhalo::app::add_demo(program);
   skyhalo::app::add_simulate(program);
+#else
+  add_missing(program, "demo");
+  add_missing(program, "simulate");
 #endif
   skyhalo::app::add_run(program);
   skyhalo::app::add_evaluate(program);

@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::operator+;
 using testing::ProgramResult;
 
 TEST(DemoCommandSystem, FliesTheReferencePlatformAndWritesAPageThatOpensOffline) {
@@ -125,6 +126,18 @@ TEST(DemoCommandSystem, AnUnknownSceneLeavesNothing) {
       SKYHALO_PROGRAM, {"demo", "--scene", "atlantis", "--out", out}, root.path());
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(DemoCommandSystem, HelpIsNoErrorAndListsWhatEveryCommandTakes) {
+  const testing::TempFolder root;
+  EXPECT_THAT(testing::run_program(SKYHALO_PROGRAM, {"--help"}, root.path()).out,
+              HasSubstr("demo"));
+  const ProgramResult result =
+      testing::run_program(SKYHALO_PROGRAM, {"demo", "--help"}, root.path());
+  EXPECT_EQ(result.exit_code, 0);
+  for (const std::string option : {"--config", "--set", "--threads", "--json", "--quiet"}) {
+    EXPECT_THAT(result.out, HasSubstr(option));
+  }
 }
 
 }  // namespace
