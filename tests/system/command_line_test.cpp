@@ -368,10 +368,10 @@ TEST_F(CommandLineSystem, ConfigPrintsTheSettings) {
 TEST_F(CommandLineSystem, HelpIsNoError) {
   EXPECT_THAT(
       run({"--help"}).out,
-      AllOf(HasSubstr("evaluate"), HasSubstr("run"), HasSubstr("halo"), HasSubstr("config")));
+      AllOf(HasSubstr("evaluate"), HasSubstr("run"), HasSubstr("rectify"), HasSubstr("config")));
   EXPECT_EQ(run({"--help"}).exit_code, 0);
   EXPECT_EQ(run({"--version"}).exit_code, 0);
-  for (const std::string command : {"evaluate", "run", "halo", "config"}) {
+  for (const std::string command : {"evaluate", "run", "rectify", "config"}) {
     const ProgramResult r = run({command, "--help"});
     EXPECT_EQ(r.exit_code, 0);
     for (const std::string option : {"--config", "--set", "--threads", "--json", "--quiet"}) {

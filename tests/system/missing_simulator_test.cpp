@@ -30,7 +30,7 @@ TEST(MissingSimulatorSystem, CommandsThatNeedItSaySoAndAreNotListed) {
     }
   }
   EXPECT_THAT(testing::run_program(SKYHALO_PROGRAM, {"--help"}, root.path()).out,
-              Not(HasSubstr("simulate")));
+              AllOf(HasSubstr("evaluate"), Not(HasSubstr("simulate")), Not(HasSubstr("demo"))));
 }
 
 }  // namespace
